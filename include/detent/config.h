@@ -29,6 +29,16 @@
 #define DETENT_NAMESPACE fx64
 #define DETENT_FIXED 1
 #endif
+
+// 1 if the library has sparse rollback (RollbackDef::sparse). Machines without an operating system have no memory for
+// it, so it is left out of their builds.
+#ifndef DETENT_SPARSE
+#if defined(__unix__) || defined(_WIN32) || defined(__APPLE__) || defined(__wasm__)
+#define DETENT_SPARSE 1
+#else
+#define DETENT_SPARSE 0
+#endif
+#endif
 /// @endcond
 
 #include <stdint.h>

@@ -133,7 +133,7 @@ struct TickMaker {
   void* context = nullptr;  ///< passed to `make`
 };
 
-/// The settings of a session. All but `local` and `delay` must be the same on every machine.
+/// The settings of a session. All but `local`, `delay` and `sparse` must be the same on every machine.
 struct RollbackDef {
   uint32_t players = 2;            ///< [1, k_rollback_players_max]
   uint32_t local = 1;              ///< bit p: player p plays on this machine; 0: the machine only watches
@@ -142,6 +142,9 @@ struct RollbackDef {
   uint32_t window = 8;             ///< ticks that may be simulated with predicted inputs, [1, k_rollback_window_max]
   uint32_t checksum_interval = 1;  ///< a checksum is taken before every tick that is a multiple of it; 0: none
   uint32_t game_bytes = 0;         ///< GameState::count
+  /// Sparse rollback: a tick that is repeated simulates only the bodies that the changed inputs reach. The results are
+  /// the same. Needs more than twice the memory (docs/rollback.md). Machines may differ in it.
+  bool sparse = false;
 };
 
 /// The result of one call.
@@ -149,6 +152,9 @@ struct RollbackReport {
   uint64_t tick = 0;         ///< ticks that the world has completed
   uint32_t ticks_again = 0;  ///< ticks that were repeated
   uint64_t went_back = 0;    ///< the first repeated tick
+  /// Awake bodies simulated in the repeated ticks, summed over these ticks. 0 without RollbackDef::sparse.
+  uint64_t bodies_again = 0;
+  uint32_t ticks_whole = 0;  ///< repeated ticks in which all awake bodies were simulated
 };
 
 /// A checksum of the state after `tick` ticks: of the world, as checksum32(), and of the GameState's bytes.
@@ -168,6 +174,10 @@ struct Desync {
 
 /// Bytes of memory that a session needs for worlds of this capacity; 0 if an argument is out of range.
 constexpr uint32_t rollback_bytes(Capacity capacity, const RollbackDef& def);
+
+/// @cond
+class SparseRollback;
+/// @endcond
 
 /// A rollback session. It starts at the tick that the world has at `begin`, and uses the tick numbers of the world.
 /// Every call is safe with untrusted data from a network: for invalid data it returns an error.
@@ -241,7 +251,10 @@ class RollbackSession {
   bool is_at(const World& world) const;
   bool lacks_local_input() const;
   uint32_t predict(uint64_t tick);
-  void keep(const World& world, uint64_t tick);
+  Status keep(const World& world, uint64_t tick);
+  Status restore(World& world, uint64_t tick);
+  void take_checksum(const World& world, const GameState& game, uint64_t tick);
+  void take_confirmed_checksums();
   Status make_tick(World& world, uint64_t tick, bool again);
   Status go_back(World& world, RollbackReport& report);
   Checksum& own_checksum(uint64_t tick) const;
@@ -252,12 +265,13 @@ class RollbackSession {
   RollbackDef def_ = {};
   TickMaker maker_ = {};
   GameState game_ = {};
-  SnapshotRing states_;
-  uint8_t* games_ = nullptr;    ///< game states of the ticks in `states_`
-  uint8_t* inputs_ = nullptr;   ///< [tick][player]: the known or predicted input
-  uint64_t* stamps_ = nullptr;  ///< [tick][player]: tick + 1 if the input is known
-  Checksum* sums_ = nullptr;    ///< [tick][machine]: this machine first, then each player
-  uint32_t kept_ = 0;           ///< number of ticks whose inputs and checksums are kept
+  SnapshotRing states_;               ///< without `sparse_`
+  SparseRollback* sparse_ = nullptr;  ///< null: all bodies are simulated again
+  uint8_t* games_ = nullptr;          ///< game states of the ticks in `states_`
+  uint8_t* inputs_ = nullptr;         ///< [tick][player]: the known or predicted input
+  uint64_t* stamps_ = nullptr;        ///< [tick][player]: tick + 1 if the input is known
+  Checksum* sums_ = nullptr;          ///< [tick][machine]: this machine first, then each player
+  uint32_t kept_ = 0;                 ///< number of ticks whose inputs and checksums are kept
   bool begun_ = false;
   uint64_t start_ = 0;           ///< the tick at `begin`
   uint64_t tick_ = 0;            ///< ticks made
@@ -273,6 +287,55 @@ struct RollbackSession::Checksum {
   uint32_t compared;
 };
 
+inline constexpr uint32_t k_sparse_control_bytes = 1024, k_tick_head_bytes = 768, k_sparse_sets = 5;
+
+// Offsets of the parts of sparse rollback (lib/replay/sparse_rollback.h), bytes.
+struct SparseLayout {
+  uint32_t images, image_bytes, records, record_bytes;
+  uint32_t reach, movers, solved, part_inside, part_visible, contact_events, joint_events, sensor_events,
+      body_events;  // within a record
+  uint32_t boxes, reach_now, units, list, sets, joint_sets;
+  uint64_t bytes;
+};
+
+constexpr SparseLayout sparse_layout(Capacity capacity, uint32_t window) {
+  SparseLayout layout{};
+  uint64_t end = 0;
+  const auto place = [&end](uint64_t bytes) {
+    const uint64_t start = end;
+    end = (end + bytes + 7) / 8 * 8;
+    return static_cast<uint32_t>(start);
+  };
+  const uint64_t bounds = uint64_t{sizeof(Bounds)} * capacity.bodies, set = uint64_t{4} * slot_words(capacity.bodies);
+  place(k_tick_head_bytes);
+  layout.reach = place(bounds);
+  layout.movers = place(set);
+  layout.solved = place(set);
+  layout.part_inside = place(set);
+  layout.part_visible = place(set);
+  layout.contact_events = place(sizeof(ContactEvent) * uint64_t{capacity.contacts});
+  layout.joint_events = place(sizeof(JointEvent) * uint64_t{capacity.joints});
+  layout.sensor_events = place(sizeof(SensorEvent) * 2 * uint64_t{capacity.sensed});
+  layout.body_events = place(sizeof(BodyEvent) * uint64_t{capacity.bodies});
+  const uint64_t record = end;
+  layout.record_bytes = static_cast<uint32_t>(record);
+  end = 0;
+  place(k_sparse_control_bytes);
+  layout.image_bytes = snapshot_bytes(capacity);
+  // States at the start of a tick and after it, one for each tick and one more; states just before a step, and one
+  // more.
+  layout.images = place(uint64_t{layout.image_bytes} * (2 * window + 2));
+  layout.records = place(record * window);
+  layout.boxes = place(bounds);
+  layout.reach_now = place(bounds);
+  layout.units = place(uint64_t{4} * capacity.bodies);
+  layout.list = place(uint64_t{4} * capacity.bodies);
+  layout.sets = place(set * k_sparse_sets);
+  layout.joint_sets = place(uint64_t{8} * slot_words(capacity.joints));
+  layout.bytes = end;
+  return layout;
+}
+
 // Offsets of the session's parts in its memory, bytes.
 struct RollbackLayout {
   uint32_t games, inputs, stamps, sums, kept;
@@ -287,9 +350,14 @@ constexpr uint32_t rollback_ticks_kept(uint32_t window) { return 6 * window + 2;
 
 constexpr RollbackLayout rollback_layout(Capacity capacity, const RollbackDef& def) {
   RollbackLayout layout{};
-  const uint32_t states = snapshot_ring_bytes(capacity, def.window);
+  uint64_t states = snapshot_ring_bytes(capacity, def.window);
+#if DETENT_SPARSE
+  if (def.sparse && states != 0 && def.window <= k_rollback_window_max)
+    states = sparse_layout(capacity, def.window).bytes;
+#endif
   if (def.players < 1 || def.players > k_rollback_players_max || def.window < 1 || def.window > k_rollback_window_max ||
-      def.input_bytes < 1 || def.input_bytes > k_rollback_input_bytes_max || def.delay > def.window || states == 0) {
+      def.input_bytes < 1 || def.input_bytes > k_rollback_input_bytes_max || def.delay > def.window || states == 0 ||
+      states > UINT32_MAX) {
     return layout;
   }
   layout.kept = rollback_ticks_kept(def.window);

@@ -107,6 +107,8 @@ struct Profile {
   uint64_t steps = 0;                       ///< number of steps that were not idle
 };
 
+struct StepReport;
+
 /// A callback at the end of each stage of each step that is not idle. It is for tools that find the stage in which two
 /// machines begin to differ. Set WorldHooks::observer to use it. An observer does not change the state.
 struct StepObserver {
@@ -115,6 +117,10 @@ struct StepObserver {
   /// `digest`, `save` and the getters.
   void (*stage_ended)(void* context, const World& world, StepStage stage, uint32_t contacts) = nullptr;
   void* context = nullptr;  ///< passed to `stage_ended`
+  /// @cond
+  // Internal: makes the step instead of step(), for RollbackSession.
+  StepReport (*step)(void* context, World& world) = nullptr;
+  /// @endcond
 };
 
 /// Bytes of the block that a world of this capacity needs; 0 if the capacity is out of range. The same on every target.

@@ -83,6 +83,12 @@ ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& 
   stage.test_all_changed(Fraction(0.0));
   while (ImpactPair* pair = next(stage)) go_on(stage, *pair);
   stage.finish_momentum();
+#if DETENT_SPARSE
+  if (probe != nullptr) {
+    probe->use.entries = stage.impact_count;
+    probe->use.work = k_impact_work_min + probe->use.budget - stage.work_left;
+  }
+#endif
   return stage.report;
 }
 

@@ -38,12 +38,26 @@ inline constexpr uint32_t k_impacts_max_spent = 16, k_impact_work_times = 8, k_i
 /// 1. All other marks are less than k_mark_jointed.
 inline constexpr uint32_t k_mark_jointed = 64;
 
-/// For tests: records the sweeps, and can switch off the filter that skips pairs which cannot collide.
+/// What a step used of the pools and budgets of continuous collision, which all islands share.
+struct ImpactUse {
+  uint32_t entries = 0;  ///< entries in the pool of impacts
+  uint32_t work = 0;     ///< units of the budget of work
+  uint32_t budget = 0;   ///< the budget of work without k_impact_work_min
+
+  bool is_spent() const { return work >= k_impact_work_min + budget; }
+};
+
+/// For tests: records the sweeps, and can switch off the filter that skips pairs which cannot collide. For rollback:
+/// records what the bodies reach.
 struct ImpactProbe {
   bool filters = true;
   /// The segments of all moving bodies, in the order in which they begin; only as many as fit.
   Span<SweepSegment> segments;
   uint32_t segment_count = 0;  ///< includes segments that did not fit
+#if DETENT_SPARSE
+  Span<Bounds> reach = {};  ///< by slot: the bounds of all sweeps of the body are added; may be empty
+  ImpactUse use = {};
+#endif
 };
 
 struct ImpactReport {

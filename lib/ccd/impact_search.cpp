@@ -418,6 +418,9 @@ void ImpactStage::find_first() {
     });
   });
   work_left = k_impact_work_min + k_impact_work_times * (moving + report.tests + report.skipped + report.kept_apart);
+#if DETENT_SPARSE
+  if (probe != nullptr) probe->use.budget = work_left - k_impact_work_min;
+#endif
 }
 
 void ImpactStage::test_all_changed(Fraction time) {

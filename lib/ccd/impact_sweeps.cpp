@@ -44,6 +44,10 @@ void begin_sweep(const ImpactStage& stage, uint32_t slot) {
   const BodyPose& pose = stage.bodies.poses[slot];
   stage.bodies.bounds[slot] = bounds_over(stage.bodies.properties[slot], pose, rest);
   if (stage.probe == nullptr) return;
+#if DETENT_SPARSE
+  if (stage.probe->reach.count != 0) include(stage.bodies.bounds[slot], stage.probe->reach[slot]);
+  if (stage.probe->segments.count == 0) return;
+#endif
   const uint32_t at = stage.probe->segment_count++;
   if (at >= stage.probe->segments.count) return;
   stage.probe->segments[at] = {slot, 0, sweep.from, pose, rest.displacement, rest.rotation_vector};
@@ -75,7 +79,7 @@ Quat end_rotation(const ImpactStage& stage, uint32_t slot) {
 }  // namespace
 
 void ImpactStage::start_sweeps() {
-  Team* const team = probe == nullptr ? settings.team : nullptr;
+  Team* const team = probe == nullptr || probe->segments.count == 0 ? settings.team : nullptr;
   share(team, bodies.active.words.count, 1, [&](uint32_t first, uint32_t last) {
     bodies.active.for_each_in(first, last, [&](uint32_t slot) { start_sweep(slot); });
   });

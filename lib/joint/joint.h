@@ -4,6 +4,7 @@
 #include <detent/features.h>
 #include <detent/joint.h>
 
+#include "base/bit_set.h"
 #include "base/span.h"
 #include "motion/angular_velocity.h"
 #include "motion/solver_bodies.h"
@@ -54,6 +55,13 @@ struct JointStage {
   Span<Real> numbers;             ///< elements of the factor's blocks
   uint32_t count = 0;             ///< number of entries in `work`
   uint32_t body_count = 0;        ///< number of entries in `bodies`
+#if DETENT_SPARSE
+  /// Joints that are not solved in this step, although they are active: the bodies of `others` in `anchoring`. Bodies
+  /// that no joint moves count as their bodies too.
+  Span<const JointState> others = {};
+  BitSet anchoring = {};                          ///< indices in `others`
+  uint32_t couplings_used = 0, numbers_used = 0;  ///< of `couplings` and `numbers`, which all islands share
+#endif
 };
 
 /// Collects all joints with an awake body, and the bodies of these joints. start_body() (predict.h) must have been

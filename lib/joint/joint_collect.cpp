@@ -57,6 +57,28 @@ bool has_slide(const JointState& joint) {
   return type == JointType::slider || type == JointType::wheel;
 }
 
+/// The arm of A, m. `between`: from A's centre to B's.
+Real arm_of_a(const JointState& joint, const Vec3<Real>& between) {
+  Real displacement = Real(0.0);
+  if (has_slide(joint)) displacement = scale_by_power(absolute_sum(between) + absolute_sum(joint.anchor_b), 1);
+  return max(absolute_sum(joint.anchor_a), displacement);
+}
+
+#if DETENT_SPARSE
+/// Adds the bodies of JointStage::anchoring. All joints of a body share its unit, and contacts ask whether it has any.
+void collect_anchors(const SolverBodies& bodies, JointStage& stage) {
+  stage.anchoring.for_each([&](uint32_t slot) {
+    const JointState& joint = stage.others[slot];
+    const auto extend = [&](uint32_t body, Real arm) {
+      if (!is_dynamic(bodies.properties[body])) extend_arm(stage.bodies[place_of(bodies, body, stage)], arm);
+    };
+    extend(joint.body_a,
+           arm_of_a(joint, real_difference(stage.poses[joint.body_b].position, stage.poses[joint.body_a].position)));
+    extend(joint.body_b, absolute_sum(joint.anchor_b));
+  });
+}
+#endif
+
 }  // namespace
 
 Vec3<Unit> clamped_unit(const Vec3<Real>& v, int exponent) {
@@ -86,11 +108,12 @@ void collect_joints(const SolverBodies& bodies, JointStage& stage) {
     JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
     const Position &from = stage.poses[joint.body_a].position, &to = stage.poses[joint.body_b].position;
     work.between = real_difference(to, from);
-    Real displacement = Real(0.0);
-    if (has_slide(joint)) displacement = scale_by_power(absolute_sum(work.between) + absolute_sum(joint.anchor_b), 1);
-    extend_arm(a, max(absolute_sum(joint.anchor_a), displacement));
+    extend_arm(a, arm_of_a(joint, work.between));
     extend_arm(b, absolute_sum(joint.anchor_b));
   }
+#if DETENT_SPARSE
+  collect_anchors(bodies, stage);
+#endif
   for (JointBody& body : stage.bodies.first(stage.body_count))
     body.above = body.exponent - bodies.properties[body.slot].size_exponent;
   for (JointWork& work : stage.work.first(stage.count)) {

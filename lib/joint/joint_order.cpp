@@ -280,6 +280,10 @@ uint32_t order_joints(const StepSettings& settings, const SolverBodies& bodies, 
     });
     dropped += island.joint_couplings_dropped;
   }
+#if DETENT_SPARSE
+  stage.couplings_used = couplings;
+  stage.numbers_used = numbers;
+#endif
   for (JointWork& work : stage.work.first(stage.count)) weigh_joint(settings, bodies, stage, work);
   for (Island& island : islands) require_substeps(settings, bodies, slots, stage, island);
   return dropped;

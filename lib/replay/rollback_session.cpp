@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "replay/game_state.h"
+#include "replay/sparse_rollback.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -14,8 +15,12 @@ Status RollbackSession::begin(const World& world, const RollbackDef& def, TickMa
   if (maker.make == nullptr || (def.local >> def.players) != 0 || !is_game_state(game, def.game_bytes))
     return Status::bad_argument;
   if (memory == nullptr || memory_bytes < layout.bytes) return Status::buffer_too_small;
+  // Also checks the alignment.
   if (const Status status = states_.begin(memory, memory_bytes, info.capacity, def.window); status != Status::ok)
     return status;
+#if DETENT_SPARSE
+  sparse_ = def.sparse ? SparseRollback::begin(memory, world, def.window) : nullptr;
+#endif
   memset(memory + layout.games, 0, static_cast<uint32_t>(layout.bytes) - layout.games);
   def_ = def;
   maker_ = maker;
@@ -71,6 +76,7 @@ void RollbackSession::set_input(uint32_t player, uint64_t tick, const uint8_t* i
   memcpy(known, input, def_.input_bytes);
   stamp_of(player, tick) = tick + 1;
   while (is_known(player, next_[player])) ++next_[player];
+  take_confirmed_checksums();
 }
 
 Status RollbackSession::add_local_input(uint32_t player, const uint8_t* input, uint64_t& tick) {
@@ -128,17 +134,59 @@ uint32_t RollbackSession::predict(uint64_t tick) {
   return predicted;
 }
 
-void RollbackSession::keep(const World& world, uint64_t tick) {
+/// Keeps the state of the world and of the game at the start of a tick.
+Status RollbackSession::keep(const World& world, uint64_t tick) {
+#if DETENT_SPARSE
+  const Status status = sparse_ != nullptr ? sparse_->keep(world) : states_.keep(world);
+#else
+  const Status status = states_.keep(world);
+#endif
+  if (status != Status::ok) return status;
   if (game_.count != 0) memcpy(game_at(tick), game_.bytes, game_.count);
-  if (def_.checksum_interval == 0 || tick % def_.checksum_interval != 0) return;
-  own_checksum(tick) = {tick + 1, digest_fold(digest_of(world, game_)), 0};
+#if DETENT_SPARSE
+  if (sparse_ != nullptr) return Status::ok;
+#endif
+  take_checksum(world, game_, tick);
+  return Status::ok;
+}
+
+void RollbackSession::take_checksum(const World& world, const GameState& game, uint64_t tick) {
+  if (def_.checksum_interval != 0 && tick % def_.checksum_interval == 0)
+    own_checksum(tick) = {tick + 1, digest_fold(digest_of(world, game)), 0};
+}
+
+/// With sparse rollback, whose states are kept unpacked: takes the checksums of the ticks that no input can change any
+/// more. Otherwise each kept state has its checksum at once.
+void RollbackSession::take_confirmed_checksums() {
+#if DETENT_SPARSE
+  if (sparse_ == nullptr) return;
+  const uint64_t confirmed = confirmed_tick();
+  for (uint64_t& tick = sparse_->summed; tick <= confirmed && tick < tick_; ++tick)
+    take_checksum(sparse_->kept(tick), {game_.count == 0 ? nullptr : game_at(tick), game_.count}, tick);
+#endif
+}
+
+Status RollbackSession::restore(World& world, uint64_t tick) {
+#if DETENT_SPARSE
+  const Status status = sparse_ != nullptr ? sparse_->restore(world, tick) : states_.restore(world, tick);
+#else
+  const Status status = states_.restore(world, tick);
+#endif
+  if (status != Status::ok) return status;
+  if (game_.count != 0) memcpy(game_.bytes, game_at(tick), game_.count);
+  return Status::ok;
 }
 
 Status RollbackSession::make_tick(World& world, uint64_t tick, bool again) {
-  if (const Status status = states_.keep(world); status != Status::ok) return status;
-  keep(world, tick);
+  if (const Status status = keep(world, tick); status != Status::ok) return status;
   const uint32_t predicted = predict(tick);
+#if DETENT_SPARSE
+  if (sparse_ != nullptr) sparse_->start_tick(world, again);
+#endif
   maker_.make(maker_.context, world, {tick, input_of(0, tick), def_.players, def_.input_bytes, predicted, again});
+#if DETENT_SPARSE
+  if (sparse_ != nullptr) sparse_->end_tick(world);
+#endif
   if (get_info(world).tick == tick + 1) return Status::ok;
   begun_ = false;
   return Status::bad_argument;
@@ -147,14 +195,19 @@ Status RollbackSession::make_tick(World& world, uint64_t tick, bool again) {
 Status RollbackSession::go_back(World& world, RollbackReport& report) {
   if (wrong_ >= tick_) return Status::ok;
   const uint64_t first = wrong_;
-  if (const Status status = states_.restore(world, first); status != Status::ok) return status;
-  if (game_.count != 0) memcpy(game_.bytes, game_at(first), game_.count);
+  if (const Status status = restore(world, first); status != Status::ok) return status;
   wrong_ = UINT64_MAX;
   for (uint64_t tick = first; tick < tick_; ++tick) {
     if (const Status status = make_tick(world, tick, true); status != Status::ok) return status;
   }
   report.went_back = first;
-  report.ticks_again = static_cast<uint32_t>(tick_ - first);
+  report.ticks_again = report.ticks_whole = static_cast<uint32_t>(tick_ - first);
+#if DETENT_SPARSE
+  if (sparse_ != nullptr) {
+    report.ticks_whole = sparse_->ticks_whole;
+    report.bodies_again = sparse_->bodies_again;
+  }
+#endif
   return Status::ok;
 }
 
@@ -163,6 +216,7 @@ Status RollbackSession::correct(World& world, RollbackReport& report) {
   RollbackReport made;
   if (const Status status = go_back(world, made); status != Status::ok) return status;
   made.tick = tick_;
+  take_confirmed_checksums();
   compare_checksums();
   report = made;
   return Status::ok;
@@ -174,8 +228,10 @@ Status RollbackSession::advance(World& world, RollbackReport& report) {
   if (tick_ >= known && tick_ - known >= def_.window) return Status::waiting;
   RollbackReport made;
   if (const Status status = go_back(world, made); status != Status::ok) return status;
+  take_confirmed_checksums();  // of ticks that the new one replaces
   if (const Status status = make_tick(world, tick_, false); status != Status::ok) return status;
   made.tick = ++tick_;
+  take_confirmed_checksums();
   compare_checksums();
   report = made;
   return Status::ok;

@@ -73,6 +73,17 @@ inline Vec3<Real> half_bounds(const BodyProperties& properties, const Matrix3& r
           real_from_unit(half.z, properties.size_exponent)};
 }
 
+/// Enlarges `bounds` so that they contain `other`.
+inline void include(const Bounds& other, Bounds& bounds) {
+  const auto along = [](Coord other_lower, Coord other_upper, Coord& lower, Coord& upper) {
+    if (other_lower < lower) lower = other_lower;
+    if (upper < other_upper) upper = other_upper;
+  };
+  along(other.lower.x, other.upper.x, bounds.lower.x, bounds.upper.x);
+  along(other.lower.y, other.upper.y, bounds.lower.y, bounds.upper.y);
+  along(other.lower.z, other.upper.z, bounds.lower.z, bounds.upper.z);
+}
+
 DETENT_SHARED inline bool overlap(const Bounds& a, const Bounds& b) {
   // One branch for each axis, not two: a processor hardly predicts on which side of the other a bound lies.
   const auto along = [](Coord lower_a, Coord upper_a, Coord lower_b, Coord upper_b) {

@@ -71,7 +71,7 @@ StepSettings settings_of(const World& world, const WorldState& state) {
 /// One step: its stages, in order, and the data that they pass to later stages.
 class Step {
  public:
-  Step(World& world, ImpactProbe* probe, StepReport& report);
+  Step(World& world, StepProbe* probe, StepReport& report);
   void run();
 
  private:
@@ -122,7 +122,7 @@ class Step {
   Span<ContactEvent> contact_events() const { return room_of(world_.hooks.contact_events); }
 
   World& world_;
-  ImpactProbe* const probe_;
+  StepProbe* const probe_;
   StepReport& report_;
   StageEnds ends_;
   const StateView<uint8_t> state_;
@@ -150,7 +150,7 @@ class Step {
   EventCount event_count_ = {};
 };
 
-Step::Step(World& world, ImpactProbe* probe, StepReport& report)
+Step::Step(World& world, StepProbe* probe, StepReport& report)
     : world_(world),
       probe_(probe),
       report_(report),
@@ -171,6 +171,11 @@ Step::Step(World& world, ImpactProbe* probe, StepReport& report)
       pool_(bodies_.poses, bodies_.properties, cache_.bounds, scratch_.pair_sort, scratch_.pairs,
             world.hooks.filter_rules, disabled_pairs_) {
   pool_.overflow = &overflow_;
+#if DETENT_SPARSE
+  if (probe_ == nullptr) return;
+  joints_.others = probe_->joints;
+  joints_.anchoring = probe_->anchoring;
+#endif
 }
 
 void Step::run() {
@@ -210,13 +215,18 @@ void Step::find_pairs() {
 /// Collects the joints of the step. First starts the tick of the jointed bodies that do not move.
 void Step::start_joints() {
   if (joint_ops_ == nullptr) return;
-  for (const JointState& joint : joints_.joints) {
-    if (joint.type == 0) continue;
+  const auto start_ends = [&](const JointState& joint) {
     const uint32_t ends[2] = {joint.body_a, joint.body_b};
     for (const uint32_t slot : ends) {
       if (!cache_.active.has(slot)) bodies_.start(settings_, slot);
     }
+  };
+  for (const JointState& joint : joints_.joints) {
+    if (joint.type != 0) start_ends(joint);
   }
+#if DETENT_SPARSE
+  joints_.anchoring.for_each([&](uint32_t slot) { start_ends(joints_.others[slot]); });
+#endif
   joint_ops_->collect(solver_bodies_, joints_);
   report_.joints.count = joints_.count;
 }
@@ -257,6 +267,13 @@ void Step::build_islands() {
   });
   if (joint_ops_ != nullptr)
     report_.lost.joint_couplings = joint_ops_->order(settings_, solver_bodies_, slots, islands_, joints_);
+#if DETENT_SPARSE
+  if (probe_ != nullptr) {
+    probe_->joint_bodies = joints_.bodies.first(joints_.body_count);
+    probe_->joint_couplings = joints_.couplings_used;
+    probe_->joint_numbers = joints_.numbers_used;
+  }
+#endif
   with_team(islands_.count, [&](Team* team) {
     share(team, islands_, k_islands_shared, [&](Span<Island> part) {
       choose_substeps(settings_, bodies_.properties, bodies_.work, slots, contact_order(), part, contacts_,
@@ -458,11 +475,11 @@ void Step::store() {
 }
 
 /// A separate function, so that the compiler cannot move its code across the change of the floating-point environment.
-__attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, StepReport& report) {
+__attribute__((noinline)) void run_stages(World& world, StepProbe* probe, StepReport& report) {
   Step(world, probe, report).run();
 }
 
-StepReport step_with(World& world, ImpactProbe* probe) {
+StepReport step_with(World& world, StepProbe* probe) {
   const FloatEnvironment environment;
   StepReport report;
   WorldState& state = view_of(world).world;
@@ -475,8 +492,14 @@ StepReport step_with(World& world, ImpactProbe* probe) {
 
 }  // namespace
 
-StepReport step(World& world) { return step_with(world, nullptr); }
-StepReport step_probed(World& world, ImpactProbe& probe) { return step_with(world, &probe); }
+StepReport step(World& world) {
+#if DETENT_SPARSE
+  const StepObserver* const observer = world.hooks.observer;
+  if (observer != nullptr && observer->step != nullptr) return observer->step(observer->context, world);
+#endif
+  return step_with(world, nullptr);
+}
+StepReport step_probed(World& world, StepProbe& probe) { return step_with(world, &probe); }
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

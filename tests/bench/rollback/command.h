@@ -8,6 +8,7 @@ struct RollbackOptions {
   std::vector<uint32_t> bodies = {10, 200, 1000, 5000};
   std::vector<std::string> configs;
   uint32_t repetitions = 40;
+  bool sparse = false;
   std::string json;
 };
 

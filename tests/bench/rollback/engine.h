@@ -22,10 +22,24 @@ struct RollbackRow {
   bool exact = true;         ///< whether every state that was made again, restored or copied was the same
 };
 
+/// Sparse rollback and rollback of all bodies. In arrays of two, the sparse one comes first.
+struct SparseRow {
+  const char* config = "";
+  const char* scene = "";
+  double bodies = 0;                ///< simulated in a tick that is made again
+  double whole = 0;                 ///< fraction of these ticks in which all bodies are simulated
+  double again[2] = {};             ///< us, of going back eight ticks and making them again; medians
+  double forward[2] = {};           ///< us, of making a new tick
+  uint32_t bytes_per_tick[2] = {};  ///< of the session's memory
+  uint64_t allocations = 0;
+  bool exact = true;
+};
+
 struct RollbackEngine {
   const char* config;
   /// The pit with so many bodies, settled; null in `problem` unless it cannot be made.
   RollbackRow (*measure)(uint32_t bodies, uint32_t repetitions, const Clock& clock, const char*& problem);
+  SparseRow (*measure_sparse)(bool apart, uint32_t repetitions, const Clock& clock);
 };
 using RollbackEngineList = std::vector<RollbackEngine>;
 

@@ -13,9 +13,11 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-namespace {
-
 using namespace detent_bench;
+
+SparseRow measure_sparse(bool apart, uint32_t repetitions, const Clock& clock);
+
+namespace {
 
 constexpr uint32_t k_settling_ticks = 300, k_window = 8;
 constexpr uint64_t k_pit_seed = 1;
@@ -141,7 +143,9 @@ RollbackRow measure(uint32_t bodies, uint32_t repetitions, const Clock& clock, c
 }  // namespace
 
 /// Adds this configuration to those of the benchmark of rollback.
-void add_rollback_engine(RollbackEngineList& engines) { engines.push_back({config_name().c_str(), measure}); }
+void add_rollback_engine(RollbackEngineList& engines) {
+  engines.push_back({config_name().c_str(), measure, measure_sparse});
+}
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

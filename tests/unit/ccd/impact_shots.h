@@ -19,7 +19,7 @@ struct SegmentPose {
 /// The segments of one tick.
 struct Trace {
   std::vector<SweepSegment> segments = std::vector<SweepSegment>(4096);
-  ImpactProbe probe;
+  StepProbe probe;
 
   StepReport step(World& world) {
     probe.segments = {segments.data(), static_cast<uint32_t>(segments.size())};

@@ -244,7 +244,7 @@ Lab make_crowd(uint64_t seed, uint32_t contacts) {
 DETENT_TEST(impact_stage, leaving_out_pairs_that_cannot_meet_changes_no_bit) {
   for (uint64_t seed = 1; seed <= detent_oracle::rounds(2); ++seed) {
     Lab quick = make_crowd(seed, 400), thorough = make_crowd(seed, 400);
-    ImpactProbe all;
+    StepProbe all;
     all.filters = false;
     uint32_t skipped = 0, impacts = 0;
     for (int tick = 0; tick < 150; ++tick) {

@@ -30,6 +30,7 @@ struct Machine {
     def.input_bytes = k_arena_input_bytes;
     def.delay = own % 3;
     def.game_bytes = sizeof(Arena::Score);
+    def.sparse = own % 2 == 1;
     memory.resize(rollback_bytes(Arena::k_capacity, def) / 8);
     EXPECT_OK(
         session.begin(arena.owned.world, def, arena.maker(), bytes_of(memory), byte_count(memory), arena.state()));

@@ -290,7 +290,7 @@ DETENT_TEST(sensor, no_throw_whose_way_overlaps_goes_unnoticed) {
     const BodyId body = trap.lab.add(def);
     SweepSegment segments[64];
     for (int tick = 0; tick < 3; ++tick) {
-      ImpactProbe probe;
+      StepProbe probe;
       probe.segments = {segments, 64};
       const bool was = !trap.within(sensor).empty();
       const StepReport report = step_probed(trap.lab.world, probe);

@@ -1,0 +1,74 @@
+#pragma once
+#include <detent/rollback.h>
+
+#if DETENT_SPARSE
+
+#include "ccd/impact.h"
+#include "replay/sparse_tick.h"
+#include "state/view.h"
+
+/// Sparse rollback: a tick that is made again simulates only the bodies that the changed inputs reach. All other bodies
+/// take the states that were recorded when the tick was made before. See docs/design/rollback.md.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// The states and records of the last ticks of a session, and the step that uses them. It lies in the session's memory.
+class SparseRollback {
+ public:
+  /// Makes one in `memory`, for worlds of this one's capacity. The layout is that of sparse_layout().
+  static SparseRollback* begin(uint8_t* memory, const World& world, uint32_t window);
+
+  /// Keeps the state of the world as the start of its next tick. Errors: capacity_differs.
+  Status keep(const World& world);
+  /// Restores the state at the start of a tick. The records of this tick and of all later ones stay.
+  /// Errors: capacity_differs, feature_missing.
+  Status restore(World& world, uint64_t tick);
+  /// The kept state at the start of one of the last ticks, to be read only.
+  World kept(uint64_t tick) const;
+  /// Makes steps of this world come to this object until end_tick(). `again`: the tick was made before.
+  void start_tick(World& world, bool again);
+  void end_tick(World& world);
+
+  uint64_t summed = 0;        ///< the first tick whose checksum the session has not taken
+  uint64_t bodies_again = 0;  ///< awake bodies of ticks made again, summed over the ticks
+  uint32_t ticks_whole = 0;   ///< ticks made again in which all bodies were simulated
+
+ private:
+  static StepReport make_step(void* context, World& world);
+  static void note_stage(void* context, const World& world, StepStage stage, uint32_t contacts);
+
+  StateView<uint8_t> image(uint32_t index) const { return view_of(images_ + index * layout_.image_bytes, capacity_); }
+  uint32_t start_image(uint64_t tick) const { return static_cast<uint32_t>(tick % (window_ + 1)); }
+  TickRecord record_of(uint64_t tick) const;
+  StepReport step(World& world);
+  StepReport step_whole(World& world, const TickRecord& record);
+  bool step_sparse(World& world, const TickRecord& record, StepReport& report);
+  bool simulate(World& world, SparseTick& tick, StepReport& base, StepReport& made);
+  bool take_known_part(const SparseTick& tick, StepReport& base);
+  void keep_part(const SparseTick& tick, const StepReport& made, TickHead& head) const;
+  bool run(World& world, SparseTick& tick, const StateView<const uint8_t>& from, const WorldHooks& hooks,
+           StepProbe& probe, StepReport& report);
+  void reach_at_rest(World& world, Span<Bounds> reach) const;
+  void record_events(const World& world, const StepReport& report, const TickRecord& record) const;
+
+  SparseLayout layout_ = {};
+  uint8_t *memory_ = nullptr, *images_ = nullptr;
+  Capacity capacity_ = {};
+  uint32_t window_ = 0;
+  uint32_t spare_ = 0;  ///< image that no record uses
+  bool again_ = false;
+  const uint8_t* block_ = nullptr;  ///< of the world whose tick is being made
+  StepObserver observer_ = {};
+  const StepObserver* theirs_ = nullptr;  ///< the caller's observer
+  bool inside_ = false;                   ///< the step that runs now is of some of the bodies
+  bool noted_ = false;                    ///< note_stage() has filled `reach_` and `solved_`
+  Span<Bounds> reach_ = {};
+  BitSet solved_ = {};
+  StepProbe base_probe_ = {}, made_probe_ = {};
+};
+static_assert(sizeof(SparseRollback) <= k_sparse_control_bytes);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
+
+#endif
