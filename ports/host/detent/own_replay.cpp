@@ -2,7 +2,6 @@
 
 #include <string.h>
 
-#include "file.h"
 #include "replay/query_command.h"
 #include "replay/replay_watch.h"
 
@@ -130,45 +129,6 @@ TraceMade trace_to(const Recorded& recorded, const Assets& assets, const TraceDe
   replay.verified();
   made.first_other = replay.first_other;
   return made;
-}
-
-Outcome trace(const TraceRequest& request, const Progress& progress) {
-  Recorded recorded;
-  recorded.path = request.reading.path;
-  {
-    // Returns the same outcome as the other commands for a file that cannot be read or has another configuration.
-    std::string problem;
-    const std::unique_ptr<Input> input = recorded.open(problem);
-    if (input == nullptr) return failed(problem);
-    uint8_t buffer[k_recording_buffer_bytes];
-    Player player(source_of(*input), buffer, sizeof buffer);
-    if (player.open() != Status::ok) {
-      Outcome outcome = failed(problem_text(player.error(), *input));
-      outcome.other_config = player.error().status == Status::config_differs;
-      return outcome;
-    }
-  }
-  std::string problem;
-  const std::unique_ptr<Output> output =
-      Output::open(request.output, ends_with(request.output, k_compressed_suffix), problem);
-  if (output == nullptr) return failed(request.output + " " + problem);
-  const TraceLevel level = request.full ? TraceLevel::full : TraceLevel::stages;
-  const TraceDef def = {level, request.reading.from, request.reading.to};
-  const TraceMade made = trace_to(recorded, request.reading.assets, def, sink_of(*output), progress);
-  Outcome outcome;
-  if (!made.problem.empty()) {
-    outcome = failed(made.problem);
-  } else if (made.last < def.to) {
-    outcome = failed("has no tick " + std::to_string(def.to));
-  } else if (!output->close()) {
-    outcome = failed(with_reason(request.output + " cannot be written"));
-  }
-  outcome.ticks = made.ticks;
-  outcome.tick = made.last;
-  outcome.first_bad_tick = made.first_other;
-  outcome.digest = made.digest;
-  outcome.file_bytes = output->file_bytes;
-  return outcome;
 }
 
 }  // namespace DETENT_NAMESPACE

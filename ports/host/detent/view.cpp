@@ -87,47 +87,99 @@ std::string read_assets(const ViewRequest& request, const Outcome& recording, As
   return "";
 }
 
-/// The problem, with the file's name; empty if the page was written.
-std::string make(const ViewRequest& request, const Outcome& recording) {
-  std::string page;
-  const std::string from = find_template(recording.header.config);
+/// Reads the page of this configuration without a recording. Returns the problem; empty if none.
+std::string read_template(const std::string& path, const std::string& config, std::string& page, size_t& mark) {
+  const std::string from = find_template(config);
   if (from.empty()) {
     if (find_template("fx64").empty())
       return "detent: this tool has no viewer: build it with ports/web/build, in a checkout of the same version";
-    return request.path + ": this tool has no viewer of configuration " + recording.header.config;
+    return path + ": this tool has no viewer of configuration " + config;
   }
   std::vector<uint8_t> bytes;
   if (const std::string problem = read_file(from, bytes); !problem.empty()) return from + ": " + problem;
   page.assign(bytes.begin(), bytes.end());
-  const size_t mark = page.find(k_mark);
-  if (mark == std::string::npos) return from + ": is not a page of the viewer";
+  mark = page.find(k_mark);
+  return mark == std::string::npos ? from + ": is not a page of the viewer" : "";
+}
 
-  bytes.clear();
-  if (const std::string problem = read_recording(request.path, bytes); !problem.empty())
-    return request.path + ": " + problem;
+/// The names of the recordings in the page: those of the files, with their folders if they are equal.
+std::vector<std::string> names_of(const std::vector<std::string>& paths) {
+  std::vector<std::string> names;
+  for (const std::string& path : paths) names.push_back(std::filesystem::path(path).filename().string());
+  return names.size() == 2 && names[0] == names[1] ? paths : names;
+}
+
+/// The problem, with the file's name; empty if the page was written.
+std::string make(const ViewRequest& request, const Outcome& recording) {
+  std::string page;
+  size_t mark = 0;
+  std::string problem = read_template(request.paths.front(), recording.header.config, page, mark);
+  if (!problem.empty()) return problem;
+  const std::vector<std::string> names = names_of(request.paths);
+  std::string elements;
+  for (size_t i = 0; i < names.size(); ++i) {
+    std::vector<uint8_t> bytes;
+    problem = read_recording(request.paths[i], bytes);
+    if (!problem.empty()) return request.paths[i] + ": " + problem;
+    elements += element("recording", " data-name=\"" + attribute(names[i]) + "\"", bytes.data(), bytes.size());
+  }
   Assets assets;
-  if (const std::string problem = read_assets(request, recording, assets); !problem.empty()) return problem;
-  const std::string name = std::filesystem::path(request.path).filename().string();
-  std::string elements = element("recording", " data-name=\"" + attribute(name) + "\"", bytes.data(), bytes.size());
+  problem = read_assets(request, recording, assets);
+  if (!problem.empty()) return problem;
   for (const AssetBytes& asset : assets)
     elements += element("asset", "", reinterpret_cast<const uint8_t*>(asset.words.data()), asset.byte_count);
   page.replace(mark, std::string(k_mark).size(), elements);
-  const std::string problem = write_file(request.output, {page.begin(), page.end()});
+  problem = write_file(request.output, {page.begin(), page.end()});
   return problem.empty() ? "" : request.output + ": " + problem;
 }
 
 }  // namespace
 
+namespace {
+
+struct Written {
+  bool good = false;
+  std::string problem;  ///< also of a good page: the damage of a recording
+  uint64_t ticks = 0;   ///< of the first recording
+};
+
+/// Damage after a header is left to the page, which shows the ticks before it.
+Written write(const ViewRequest& request) {
+  Written written;
+  std::vector<Outcome> recordings;
+  for (const std::string& path : request.paths) {
+    const Outcome recording =
+        by_its_engine([&](const Engine& engine) { return engine.info({path}, [](uint64_t, uint64_t) {}); });
+    const std::string problem = path + ": " + recording.problem;
+    if (!recording.header_known || recording.verdict == Verdict::refused) return {false, problem, 0};
+    if (recording.verdict == Verdict::bad && written.problem.empty()) written.problem = problem;
+    recordings.push_back(recording);
+    const std::string& config = recording.header.config;
+    if (config != recordings.front().header.config)
+      return {
+          false,
+          path + ": is of configuration " + config + ", not to be compared with " + recordings.front().header.config,
+          0};
+  }
+  const std::string problem = make(request, recordings.front());
+  written.good = problem.empty();
+  if (!written.good) written.problem = problem;
+  written.ticks = recordings.front().ticks;
+  return written;
+}
+
+std::string listed(const std::vector<std::string>& paths) {
+  return paths.size() == 1 ? paths[0] : paths[0] + " and " + paths[1];
+}
+
+}  // namespace
+
 bool write_view(const ViewRequest& request) {
-  const Outcome recording =
-      by_its_engine([&](const Engine& engine) { return engine.info({request.path}, [](uint64_t, uint64_t) {}); });
-  // Damage after the header is left to the page, which shows the ticks before it.
-  const bool shown = recording.header_known && recording.verdict != Verdict::refused;
-  std::string problem = shown ? make(request, recording) : request.path + ": " + recording.problem;
-  const bool good = problem.empty();
-  if (good && recording.verdict == Verdict::bad) problem = request.path + ": " + recording.problem;
+  const auto [good, problem, ticks] = write(request);
   if (request.json) {
-    nlohmann::ordered_json line = {{"file", request.path}, {"ok", good}};
+    nlohmann::ordered_json line = {{"file", request.paths.front()}};
+    if (request.paths.size() == 2) line["second"] = request.paths[1];
+    line["ok"] = good;
     if (good) line["output"] = request.output;
     if (!problem.empty()) line["problem"] = problem;
     printf("%s\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
@@ -135,7 +187,7 @@ bool write_view(const ViewRequest& request) {
   }
   if (!problem.empty()) fprintf(stderr, "%s\n", printable(problem).c_str());
   if (good) {
-    printf("%s\n", printable(request.output + ": " + std::to_string(recording.ticks) + " ticks of " + request.path +
+    printf("%s\n", printable(request.output + ": " + std::to_string(ticks) + " ticks of " + listed(request.paths) +
                              "; open it in a browser")
                        .c_str());
   }

@@ -1,8 +1,8 @@
-/** What `detent view` has written into the page: the recording, its assets and its name. */
+/** What `detent view` has written into the page: one or two recordings with their names, and their assets. */
+import type { Named } from './compare.js';
 
 export interface Embedded {
-  name: string;
-  recording: Uint8Array;
+  recordings: Named[];
   assets: Uint8Array[];
 }
 
@@ -15,11 +15,13 @@ export function bytesOf(base64: string): Uint8Array {
 
 /** Undefined if the page is still a template. */
 export function embedded(page: Document): Embedded | undefined {
-  const recording = page.querySelector<HTMLElement>('script.recording');
-  if (recording === null) return undefined;
+  const recordings = [...page.querySelectorAll<HTMLElement>('script.recording')];
+  if (recordings.length === 0) return undefined;
   return {
-    name: recording.dataset['name'] ?? 'recording',
-    recording: bytesOf(recording.textContent ?? ''),
+    recordings: recordings.map((each) => ({
+      name: each.dataset['name'] ?? 'recording',
+      bytes: bytesOf(each.textContent ?? ''),
+    })),
     assets: [...page.querySelectorAll('script.asset')].map((asset) => bytesOf(asset.textContent ?? '')),
   };
 }

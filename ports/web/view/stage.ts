@@ -36,6 +36,8 @@ const originDistanceMax = 4096;
 
 export class Stage {
   readonly bodies: Bodies;
+  /** The second recording's bodies, where they differ. */
+  private readonly ghosts: Bodies;
   readonly overlays: Overlays;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
@@ -70,9 +72,11 @@ export class Stage {
     this.light.castShadow = true;
     this.light.shadow.mapSize.setScalar(2048);
     this.light.shadow.normalBias = this.radius / 500;
-    this.bodies = new Bodies(this.radius * 100, 10 ** Math.floor(Math.log10(this.radius / 2)));
+    const gridStep = 10 ** Math.floor(Math.log10(this.radius / 2));
+    this.bodies = new Bodies(this.radius * 100, gridStep);
+    this.ghosts = new Bodies(this.radius * 100, gridStep, this.bodies);
     this.overlays = new Overlays(this.radius / 5);
-    this.scene.add(this.bodies.group, this.overlays.group);
+    this.scene.add(this.bodies.group, this.ghosts.group, this.overlays.group);
     this.resetCamera();
   }
 
@@ -102,10 +106,13 @@ export class Stage {
     return Math.max(1.08 * Math.max(...needed, this.radius), this.controls.minDistance);
   }
 
-  /** Takes over the world's present tick. */
-  update(world: WorldView, look: Look, selected: BodyId | undefined): void {
-    this.bodies.update(world, this.origin, look.colourBy, look.speedMax, selected);
+  /** Takes over the world's present tick. `marks`: slots of bodies. `second`: a world whose bodies are ghosts. */
+  update(world: WorldView, look: Look, selected: BodyId | undefined, marks: number[] = [], second?: WorldView): void {
+    this.bodies.update(world, this.origin, look.colourBy, look.speedMax);
     if (look.follow && selected) this.follow(selected, world, look);
+    if (second === undefined) this.ghosts.clear();
+    else this.ghosts.update(second, this.origin, look.colourBy, look.speedMax);
+    this.bodies.rim(selected, marks);
     this.overlays.update(world, this.origin, look);
     this.stale = true;
   }
@@ -119,7 +126,7 @@ export class Stage {
     const moved = new Vector3(...at.toArray().map(Math.round));
     this.camera.position.sub(moved);
     this.controls.target.sub(moved);
-    this.bodies.update(world, this.origin, look.colourBy, look.speedMax, body);
+    this.bodies.update(world, this.origin, look.colourBy, look.speedMax);
   }
 
   /** Draws, if anything has changed since the last time. */
