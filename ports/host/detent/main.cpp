@@ -320,8 +320,12 @@ int run_command(int argc, char** argv) {
   CLI::App* view = app.add_subcommand(
       "view",
       "Write a page that replays, verifies and draws a recording in a browser, without a network; with two, it plays "
-      "them to the first difference");
-  view->add_option("file", viewing.paths, "A recording, or two of the same match")->required()->expected(1, 2);
+      "them to the first difference; a scene goes on live, and bodies can be thrown");
+  view->add_option("file", viewing.paths, "A recording, two of the same match, or scenes (*.json)")->required();
+  viewing.config = configs.front();
+  view->add_option("--config", viewing.config, "The math configuration of scenes")
+      ->check(CLI::IsMember(configs))
+      ->capture_default_str();
   view->add_option("-o,--output", viewing.output, "The page to write; FILE.html if it is not given");
   add_assets(view, viewing.asset_paths);
 

@@ -1,8 +1,7 @@
 #include "own_replay.h"
 
-#include <string.h>
-
-#include "replay/query_command.h"
+#include "repeat_call.h"
+#include "replay/command.h"
 #include "replay/replay_watch.h"
 
 namespace detent {
@@ -55,28 +54,8 @@ void OwnReplay::called(void* context, const uint8_t* record, uint32_t count) {
 
 void OwnReplay::call(const uint8_t* record, uint32_t count) {
   if (!problem.empty()) return;
-  Reader reader{record, count, 1};
   const RecordTag tag = static_cast<RecordTag>(record[0]);
-  Status status = Status::corrupt;
-  bool same_id = true;
-  if (tag == RecordTag::query) {
-    uint64_t length = 0, kind = 0;
-    reader.bits("query length", length, 2);
-    reader.bits("query kind", kind, 1);
-    alignas(8) uint8_t command[k_query_command_bytes] = {};
-    const QueryCode* const code = find_query(kind);
-    if (code == nullptr) return;
-    code->visit(reader, command);
-    status = recorder_->make(*code, command);
-  } else if (const CommandCode* const code = find_command(tag)) {
-    alignas(8) uint8_t command[k_command_bytes_max] = {};
-    code->visit(reader, command);
-    BodyId recorded, given;  // or joint ids
-    memcpy(&recorded, command, sizeof recorded);
-    status = recorder_->make(*code, command);
-    memcpy(&given, command, sizeof given);
-    same_id = given == recorded;
-  }
+  const auto [status, same_id] = repeat_call(*recorder_, record, count);
   if (status == Status::ok && same_id) return;
   refused = true;
   fail("tick " + std::to_string(tick + 1) + ": this machine " +

@@ -11,49 +11,12 @@
 #include "stream.h"
 #include "text.h"
 #include "verification.h"
+#include "view_page.h"
+#include "view_scenes.h"
 
 namespace detent_tool {
 
 namespace {
-
-constexpr const char* k_mark = "<!--recording-->";  // where ports/web/view/page.html takes the recording
-
-std::string base64(const uint8_t* bytes, size_t count) {
-  constexpr const char* k_letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((count + 2) / 3 * 4);
-  for (size_t i = 0; i < count; i += 3) {
-    const size_t left = std::min<size_t>(count - i, 3);
-    const uint32_t group = static_cast<uint32_t>(bytes[i]) << 16 |
-                           (left > 1 ? static_cast<uint32_t>(bytes[i + 1]) << 8 : 0u) |
-                           (left > 2 ? static_cast<uint32_t>(bytes[i + 2]) : 0u);
-    for (size_t k = 0; k < 4; ++k) text += k <= left ? k_letters[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
-/// The name in an attribute of the page: a file may be called anything.
-std::string attribute(const std::string& text) {
-  std::string safe;
-  for (const char letter : printable(text)) {
-    const auto unsafe = std::string("&<>\"'").find(letter) != std::string::npos;
-    safe += unsafe ? "&#" + std::to_string(static_cast<int>(letter)) + ";" : std::string(1, letter);
-  }
-  return safe;
-}
-
-/// The page of a configuration without a recording, as ports/web/build makes it: installed with the tool, or in the
-/// build folder beside that of the tool. Empty if there is none.
-std::string find_template(const std::string& config) {
-  std::error_code error;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-  const std::string name = config + ".html";
-  for (const char* folder : {"../share/detent/view", "../../../../web/view"}) {
-    const std::filesystem::path candidate = self / folder / name;
-    if (std::filesystem::is_regular_file(candidate, error)) return candidate.string();
-  }
-  return "";
-}
 
 /// Reads a recording whole, unpacked. Returns the problem; empty if none.
 std::string read_recording(const std::string& path, std::vector<uint8_t>& bytes) {
@@ -71,11 +34,6 @@ std::string read_recording(const std::string& path, std::vector<uint8_t>& bytes)
   return "";
 }
 
-std::string element(const char* kind, const std::string& more, const uint8_t* bytes, size_t count) {
-  return std::string("<script class=\"") + kind + "\" type=\"text/plain\"" + more + ">" + base64(bytes, count) +
-         "</script>\n";
-}
-
 /// The assets of the page: those that are named, or those of the built-in scenes; no more than the world has room for.
 std::string read_assets(const ViewRequest& request, const Outcome& recording, Assets& assets) {
   for (const std::string& path : request.asset_paths) {
@@ -87,21 +45,6 @@ std::string read_assets(const ViewRequest& request, const Outcome& recording, As
   return "";
 }
 
-/// Reads the page of this configuration without a recording. Returns the problem; empty if none.
-std::string read_template(const std::string& path, const std::string& config, std::string& page, size_t& mark) {
-  const std::string from = find_template(config);
-  if (from.empty()) {
-    if (find_template("fx64").empty())
-      return "detent: this tool has no viewer: build it with ports/web/build, in a checkout of the same version";
-    return path + ": this tool has no viewer of configuration " + config;
-  }
-  std::vector<uint8_t> bytes;
-  if (const std::string problem = read_file(from, bytes); !problem.empty()) return from + ": " + problem;
-  page.assign(bytes.begin(), bytes.end());
-  mark = page.find(k_mark);
-  return mark == std::string::npos ? from + ": is not a page of the viewer" : "";
-}
-
 /// The names of the recordings in the page: those of the files, with their folders if they are equal.
 std::vector<std::string> names_of(const std::vector<std::string>& paths) {
   std::vector<std::string> names;
@@ -111,36 +54,28 @@ std::vector<std::string> names_of(const std::vector<std::string>& paths) {
 
 /// The problem, with the file's name; empty if the page was written.
 std::string make(const ViewRequest& request, const Outcome& recording) {
-  std::string page;
-  size_t mark = 0;
-  std::string problem = read_template(request.paths.front(), recording.header.config, page, mark);
+  ViewPage page;
+  std::string problem = page.open(request.paths.front(), recording.header.config);
   if (!problem.empty()) return problem;
   const std::vector<std::string> names = names_of(request.paths);
-  std::string elements;
   for (size_t i = 0; i < names.size(); ++i) {
     std::vector<uint8_t> bytes;
     problem = read_recording(request.paths[i], bytes);
     if (!problem.empty()) return request.paths[i] + ": " + problem;
-    elements += element("recording", " data-name=\"" + attribute(names[i]) + "\"", bytes.data(), bytes.size());
+    page.add("recording", {{"name", names[i]}}, bytes.data(), bytes.size());
   }
   Assets assets;
   problem = read_assets(request, recording, assets);
   if (!problem.empty()) return problem;
   for (const AssetBytes& asset : assets)
-    elements += element("asset", "", reinterpret_cast<const uint8_t*>(asset.words.data()), asset.byte_count);
-  page.replace(mark, std::string(k_mark).size(), elements);
-  problem = write_file(request.output, {page.begin(), page.end()});
-  return problem.empty() ? "" : request.output + ": " + problem;
+    page.add("asset", {}, reinterpret_cast<const uint8_t*>(asset.words.data()), asset.byte_count);
+  return page.write(request.output);
 }
-
-}  // namespace
-
-namespace {
 
 struct Written {
   bool good = false;
   std::string problem;  ///< also of a good page: the damage of a recording
-  uint64_t ticks = 0;   ///< of the first recording
+  uint64_t ticks = 0;   ///< of the first recording or of all scenes
 };
 
 /// Damage after a header is left to the page, which shows the ticks before it.
@@ -169,13 +104,30 @@ Written write(const ViewRequest& request) {
 }
 
 std::string listed(const std::vector<std::string>& paths) {
+  if (paths.size() > 2) return std::to_string(paths.size()) + " scenes";
   return paths.size() == 1 ? paths[0] : paths[0] + " and " + paths[1];
+}
+
+bool are_scenes(const std::vector<std::string>& paths) {
+  return std::all_of(paths.begin(), paths.end(), [](const std::string& path) { return ends_with(path, ".json"); });
+}
+
+Written write_any(const ViewRequest& request) {
+  if (are_scenes(request.paths)) {
+    if (!request.asset_paths.empty()) return {false, "--asset is for recordings: a scene names its files", 0};
+    Written written;
+    written.good = write_scenes(request, written.ticks, written.problem);
+    return written;
+  }
+  if (request.paths.size() > 2)
+    return {false, "a page shows one recording or two, or any number of scenes, whose names end in .json", 0};
+  return write(request);
 }
 
 }  // namespace
 
 bool write_view(const ViewRequest& request) {
-  const auto [good, problem, ticks] = write(request);
+  const auto [good, problem, ticks] = write_any(request);
   if (request.json) {
     nlohmann::ordered_json line = {{"file", request.paths.front()}};
     if (request.paths.size() == 2) line["second"] = request.paths[1];

@@ -4,9 +4,10 @@
 
 namespace detent_tool {
 
-/// The page of a recording, or of two to compare, to be written.
+/// The page of a recording, of two to compare, or of scenes that go on live, to be written.
 struct ViewRequest {
-  std::vector<std::string> paths;  ///< one or two
+  std::vector<std::string> paths;  ///< one recording or two, or scenes
+  std::string config;              ///< of the scenes
   std::string output;
   std::vector<std::string> asset_paths;
   bool json = false;

@@ -170,14 +170,14 @@ export class Bodies {
     const matrix = this.matrices.get(slot);
     return matrix && new Vector3().setFromMatrixPosition(matrix);
   }
-  /** The first body that the ray meets. */
-  pick(ray: Raycaster): BodyId | undefined {
+  /** The first body that the ray meets, and where, from the scene's origin. */
+  pick(ray: Raycaster): { id: BodyId; point: Vector3 } | undefined {
     for (const hit of ray.intersectObjects(
       [...this.batches.values()].filter((b) => b.rows.length > 0).map((b) => b.mesh),
     )) {
       const batch = [...this.batches.values()].find((each) => each.mesh === hit.object);
       const row = batch?.rows[hit.instanceId ?? -1];
-      if (row !== undefined) return row.id;
+      if (row !== undefined) return { id: row.id, point: hit.point };
     }
     return undefined;
   }

@@ -1,12 +1,14 @@
-/** The page of `detent view`: one or two recordings, replayed and verified as they are looked at. */
+/** The page of `detent view`: one or two recordings, replayed and verified as they are looked at, or live scenes. */
 import { Detent, type ReplayProblem } from '../src/index.js';
 import { Module } from '../src/module.js';
 import type { Named } from './compare.js';
 import { element, notice } from './elements.js';
-import { embedded, moduleBytes } from './embedded.js';
+import { embedded, moduleBytes, type EmbeddedScene } from './embedded.js';
 import { bindFiles } from './files.js';
+import { LiveViewer } from './live.js';
 import { Pair } from './pair.js';
 import { Playback } from './playback.js';
+import { bindSamples } from './samples.js';
 import { refusal } from './verdict.js';
 import { Viewer } from './viewer.js';
 
@@ -40,17 +42,30 @@ function show(module: Module, recordings: Named[], assets: Uint8Array[]): void {
   bindFiles(compare);
 }
 
+function showLive(module: Module, scenes: EmbeddedScene[]): void {
+  const viewer = new LiveViewer(new Detent(module), module);
+  let chosen: EmbeddedScene | undefined;
+  const choose = async (scene: EmbeddedScene) => {
+    chosen = scene;
+    const [recording, assets] = await Promise.all([scene.recording(), scene.assets()]);
+    if (chosen === scene) viewer.open({ name: scene.name, text: scene.text, recording, assets });
+  };
+  if (scenes.length === 1) void choose(scenes[0]!);
+  else bindSamples(scenes, (scene) => void choose(scene));
+}
+
 async function main(): Promise<void> {
   const data = embedded(document);
   if (data === undefined) return refuse('This page is a template: detent view writes a recording into it.');
-  const { recordings, assets } = data;
-  element('name').textContent = recordings[0]!.name;
+  const { recordings, scenes, assets } = data;
+  element('name').textContent = (recordings[0] ?? scenes[0])!.name;
   let module: Module;
   try {
-    module = await Module.load(await moduleBytes(document));
+    module = await Module.load((await moduleBytes(document)) as BufferSource);
   } catch {
     return refuse('This browser cannot run WebAssembly, or is too old for this page.');
   }
+  if (scenes.length > 0) return showLive(module, scenes);
   try {
     show(module, recordings, assets);
   } catch (error) {

@@ -5,15 +5,7 @@ import { element, notice } from './elements.js';
 import type { Extent } from './extent.js';
 import { Inspector } from './inspector.js';
 import { digits } from './numbers.js';
-import { Stage, type Look } from './stage.js';
-
-/** What is marked and drawn besides the world. */
-export interface Beside {
-  /** Slots of bodies. */
-  marks: number[];
-  /** A world whose bodies are ghosts. */
-  second?: WorldView | undefined;
-}
+import { Stage, type Beside, type Look } from './stage.js';
 
 export class Scenery {
   readonly stage: Stage | undefined;
@@ -30,15 +22,11 @@ export class Scenery {
     speedMax: 0,
   };
 
-  /** `undrawn`: what a page says that cannot draw. `picks`: whether a click at this time chooses a body. */
-  constructor(
-    extent: Extent,
-    undrawn: string,
-    private readonly picks: () => boolean = () => true,
-  ) {
+  /** `undrawn`: what a page says that cannot draw. */
+  constructor(undrawn: string) {
     this.inspector = new Inspector(element('inspector'), (id) => this.select(id));
     try {
-      this.stage = new Stage(element('stage'), extent);
+      this.stage = new Stage(element('stage'));
     } catch {
       notice(undrawn);
     }
@@ -46,6 +34,12 @@ export class Scenery {
     this.bindPicking();
   }
 
+  /** Begins with another world. */
+  open(extent: Extent): void {
+    this.stage?.open(extent);
+    this.look.speedMax = 0;
+    this.select(undefined);
+  }
   show(world: WorldView, beside: Beside = { marks: [] }): void {
     this.stale = false;
     if (this.look.colourBy === 'speed') {
@@ -53,7 +47,7 @@ export class Scenery {
         if (row.type !== 'fixed') this.look.speedMax = Math.max(this.look.speedMax, row.speed);
       }
     }
-    this.stage?.update(world, this.look, this.selected, beside.marks, beside.second);
+    this.stage?.update(world, this.look, this.selected, beside);
     this.inspector.update(world, this.stage?.bodies.rows ?? world.bodies(), this.selected);
     this.showLegend();
   }
@@ -126,7 +120,6 @@ export class Scenery {
       if (detail > 0 && target instanceof Element) target.closest('button')?.blur();
     });
     this.setLook('colourBy', 'island');
-    this.select(undefined);
   }
   /** A click that is not a drag of the camera chooses a body. */
   private bindPicking(): void {
@@ -134,8 +127,8 @@ export class Scenery {
     let from: [number, number] = [0, 0];
     canvas.addEventListener('pointerdown', (event) => (from = [event.offsetX, event.offsetY]));
     canvas.addEventListener('click', (event) => {
-      if (this.picks() && Math.hypot(event.offsetX - from[0], event.offsetY - from[1]) < 4) {
-        this.select(this.stage?.pick(event.offsetX, event.offsetY));
+      if (Math.hypot(event.offsetX - from[0], event.offsetY - from[1]) < 4) {
+        this.select(this.stage?.pick(event.offsetX, event.offsetY)?.id);
       }
     });
   }

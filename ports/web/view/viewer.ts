@@ -1,6 +1,6 @@
 /** The page's controls of a recording: what is shown of it, and when. */
 import { element, notice } from './elements.js';
-import { extentOf, placesOf, type Extent } from './extent.js';
+import { survey } from './extent.js';
 import type { Pair } from './pair.js';
 import type { Playback } from './playback.js';
 import { bindKeys, Scenery } from './scenery.js';
@@ -12,13 +12,6 @@ import { verdictOf } from './verdict.js';
 /** Of a frame, ms: what verifying, and what catching up with the clock, may take. */
 const verifyBudget = 12;
 const playBudget = 12;
-/** What is played before the first frame, to see where the bodies go: ticks, and work as workOf() counts it. No time, for the
- *  camera shall be the same on every machine. */
-const surveyTicks = 90;
-const surveyWork = 6000;
-/** Bodies that travel so many times their extent are seen where they start. */
-const travelFactor = 12;
-
 export class Viewer {
   private readonly timeline: Timeline;
   private readonly scenery: Scenery;
@@ -33,9 +26,9 @@ export class Viewer {
     this.tickSeconds = playback.shown.settings().tick;
     this.timeline = new Timeline(element('timeline'), playback, (tick) => this.scrub(tick));
     this.scenery = new Scenery(
-      this.survey(),
       'This browser has no WebGL, or it is switched off: the recording is verified, but not drawn.',
     );
+    this.scenery.open(survey(playback));
     this.speeds = bindSpeeds();
     this.bindButtons();
     this.bindKeys();
@@ -49,20 +42,6 @@ export class Viewer {
     this.setPlaying(false);
     notice('');
     this.scenery.stale = true;
-  }
-
-  /** Where bodies are in the first part of the recording. */
-  private survey(): Extent {
-    const { playback } = this;
-    playback.verifyWork(surveyTicks, surveyWork);
-    const [start, ...later] = [0, 0.5, 1].map((share) => {
-      playback.goTo(playback.first + share * (playback.verified - playback.first));
-      return placesOf(playback.shown);
-    });
-    playback.goTo(playback.first);
-    const first = extentOf(start!);
-    const all = extentOf([...start!, ...later.flat()]);
-    return all.radius > travelFactor * first.radius ? first : all;
   }
 
   private frame(now: number): void {
