@@ -129,14 +129,19 @@ const slide = (page, id, value) =>
   );
 
 test('a body is picked up with the mouse, moved and thrown, and the recording of it verifies', options, async () => {
-  const { address } = pageOf('crate', { ticks: 60, bodies: [ground, crate] });
+  const { address } = pageOf('crate', { ticks: 300, bodies: [ground, crate] });
   const page = await open(address);
   await passes(page, 5);
   const [x, y] = await middle(page);
+  // A click chooses the body, and changes nothing.
+  await page.mouse.click(x, y);
+  await page.waitForSelector('#inspector:not([hidden])');
+  await passes(page, (await tickOf(page)) + 10);
+  assert.equal(await page.textContent('#verdict'), 'as recorded');
   await page.mouse.move(x, y);
   await page.mouse.down();
-  await page.waitForFunction(() => document.body.dataset.held === '2');
   await page.mouse.move(x, y - 200, { steps: 5 });
+  await page.waitForFunction(() => document.body.dataset.held === '2');
   const from = await tickOf(page);
   await passes(page, from + 60);
   const held = await position(page);

@@ -27,12 +27,15 @@ const ghost = new Color(palette.ghost);
 interface Batch {
   mesh: InstancedMesh;
   shape: Full<Shape>;
+  fixed: boolean;
   rows: BodyRow[];
 }
 
 export class Bodies {
   readonly group = new Group();
   rows: BodyRow[] = [];
+  /** Fixed bodies are transparent, except the ground. */
+  glass = false;
   private readonly bySlot = new Map<number, BodyRow>();
   private readonly batches = new Map<string, Batch>();
   private readonly matrices = new Map<number, Matrix4>();
@@ -84,12 +87,13 @@ export class Bodies {
   }
 
   private batchOf(row: BodyRow, world: WorldView): Batch {
-    const key = `${row.look}${row.sensor ? 'sensor' : ''}`;
+    const fixed = row.type === 'fixed';
+    const key = `${row.look}${row.sensor ? 'sensor' : fixed ? 'fixed' : ''}`;
     let batch = this.batches.get(key);
     if (batch === undefined) {
       const { shape } = world.body(row.id).def;
       const geometry = geometryOf(shape, world.outline(row.id), this.planeSize);
-      batch = { mesh: this.makeMesh(geometry, this.materialOf(shape, row.sensor), 16), shape, rows: [] };
+      batch = { mesh: this.makeMesh(geometry, this.materialOf(shape, row.sensor), 16), shape, fixed, rows: [] };
       this.batches.set(key, batch);
     }
     return batch;
@@ -133,6 +137,7 @@ export class Bodies {
       this.batches.set(key, batch);
     }
     const { mesh, rows } = batch;
+    if (batch.fixed && batch.shape.type !== 'half_space' && this.solid === undefined) setGlass(mesh, this.glass);
     mesh.count = rows.length;
     rows.forEach((row, i) => {
       mesh.setMatrixAt(i, this.matrices.get(row.id.slot)!);
@@ -165,6 +170,9 @@ export class Bodies {
     rim.show(batch.mesh.geometry, this.matrices.get(row.id.slot)!, batch.shape.type === 'terrain');
   }
 
+  isFixed(slot: number): boolean {
+    return this.bySlot.get(slot)?.type === 'fixed';
+  }
   /** Where the body is, from the scene's origin. */
   positionOf(slot: number): Vector3 | undefined {
     const matrix = this.matrices.get(slot);
@@ -181,6 +189,16 @@ export class Bodies {
     }
     return undefined;
   }
+}
+
+function setGlass(mesh: InstancedMesh, on: boolean): void {
+  const material = mesh.material as MeshStandardMaterial;
+  if (material.transparent === on) return;
+  material.transparent = on;
+  material.opacity = on ? 0.25 : 1;
+  material.depthWrite = !on;
+  material.needsUpdate = true;
+  mesh.castShadow = !on;
 }
 
 /** Ten by ten cells, every tenth line stronger. */

@@ -39,6 +39,9 @@ export function survey(playback: Playback, work = surveyWork): Extent {
   return all.radius > travelFactor * first.radius ? first : all;
 }
 
+/** Where bodies are now. */
+export const extentNow = (world: WorldView): Extent => extentOf(placesOf(world));
+
 /** The places of the bodies that move, or of all if none does. */
 function placesOf(world: WorldView): Place[] {
   const rows = world.bodies();

@@ -2,11 +2,11 @@
 import type { BodyId, Detent, Material } from '../src/index.js';
 import type { Module } from '../src/module.js';
 import { element, notice } from './elements.js';
-import { survey } from './extent.js';
+import { extentNow, survey } from './extent.js';
 import { Grab } from './grab.js';
 import { LiveWorld, type LiveStep } from './live_world.js';
 import { Playback } from './playback.js';
-import { bindKeys, Scenery } from './scenery.js';
+import { bindKeys, clickPixels, Scenery } from './scenery.js';
 import { losses } from './series.js';
 import { bindSpeeds, type Speeds } from './speeds.js';
 
@@ -14,7 +14,7 @@ import { bindSpeeds, type Speeds } from './speeds.js';
 const stepBudget = 24;
 
 /** What is played before a scene is shown, to see where its bodies go. */
-const surveyWork = 20000;
+const surveyWork = 60000;
 
 /** A scene as its page has it. */
 export interface LiveScene {
@@ -30,6 +30,8 @@ export class LiveViewer {
   private scene!: LiveScene;
   private world: LiveWorld | undefined;
   private last: LiveStep | undefined;
+  /** A body under the pressed mouse, and where it was pressed; it is held once the mouse has moved. */
+  private taken: { grab: Grab; at: [number, number] } | undefined;
   private grab: Grab | undefined;
   /** The reader has made calls: the digests are no more the scene's. */
   private touched = false;
@@ -47,7 +49,10 @@ export class LiveViewer {
     private readonly module: Module,
   ) {
     document.body.classList.add('live');
-    this.scenery = new Scenery('This browser has no WebGL, or it is switched off: the scene runs, but is not drawn.');
+    this.scenery = new Scenery(
+      'This browser has no WebGL, or it is switched off: the scene runs, but is not drawn.',
+      () => this.world && extentNow(this.world),
+    );
     this.speeds = bindSpeeds();
     this.bindButtons();
     this.bindSliders();
@@ -93,7 +98,7 @@ export class LiveViewer {
   }
   private close(): void {
     this.world?.destroy();
-    this.world = this.last = this.grab = this.differs = undefined;
+    this.world = this.last = this.taken = this.grab = this.differs = undefined;
     this.touched = false;
     this.agreed = 0;
   }
@@ -122,7 +127,7 @@ export class LiveViewer {
   private step(): void {
     const { world } = this;
     if (world === undefined) return;
-    if (this.grab !== undefined && !world.has(this.grab.id)) this.grab = undefined;
+    if (this.taken !== undefined && !world.has(this.taken.grab.id)) this.taken = this.grab = undefined;
     if (this.grab !== undefined) this.change(() => this.grab!.pull(this.tickSeconds));
     this.last = world.advance();
     const { compared, agrees, report } = this.last;
@@ -242,8 +247,8 @@ export class LiveViewer {
     const { stage } = this.scenery;
     if (stage === undefined) return;
     const letGo = () => {
-      if (this.grab === undefined) return;
-      this.grab = undefined;
+      if (this.taken === undefined) return;
+      this.taken = this.grab = undefined;
       stage.turns = true;
       this.scenery.stale = true;
     };
@@ -257,14 +262,16 @@ export class LiveViewer {
         if (picked === undefined || world.body(picked.id).def.type !== 'dynamic') return;
         stage.turns = false;
         canvas.setPointerCapture(event.pointerId);
-        this.grab = new Grab(world, picked.id, picked.point);
-        this.scenery.select(picked.id);
+        this.taken = { grab: new Grab(world, picked.id, picked.point), at: [event.offsetX, event.offsetY] };
       },
       { capture: true },
     );
     canvas.addEventListener('pointermove', (event) => {
-      if (this.grab === undefined) return;
-      this.grab.target = stage.across(event.offsetX, event.offsetY, this.grab.target);
+      const { taken } = this;
+      if (taken === undefined) return;
+      const [x, y] = taken.at;
+      if (Math.hypot(event.offsetX - x, event.offsetY - y) >= clickPixels) this.grab = taken.grab;
+      taken.grab.target = stage.across(event.offsetX, event.offsetY, taken.grab.target);
       this.scenery.stale = true;
     });
     for (const name of ['pointerup', 'pointercancel', 'lostpointercapture']) canvas.addEventListener(name, letGo);

@@ -7,11 +7,16 @@ import { Inspector } from './inspector.js';
 import { digits } from './numbers.js';
 import { Stage, type Beside, type Look } from './stage.js';
 
+/** A click moves less. */
+export const clickPixels = 4;
+
 export class Scenery {
   readonly stage: Stage | undefined;
   selected: BodyId | undefined;
   /** Something has changed since show(). */
   stale = true;
+  /** Nothing of this world has been shown yet. */
+  private fresh = true;
   private readonly inspector: Inspector;
   private readonly look: Look = {
     colourBy: 'island',
@@ -19,11 +24,15 @@ export class Scenery {
     joints: true,
     bounds: false,
     follow: false,
+    glass: false,
     speedMax: 0,
   };
 
-  /** `undrawn`: what a page says that cannot draw. */
-  constructor(undrawn: string) {
+  /** `undrawn`: what a page says that cannot draw. `extent`: what the camera looks at if it is reset; else what open() got. */
+  constructor(
+    undrawn: string,
+    private readonly extent?: () => Extent | undefined,
+  ) {
     this.inspector = new Inspector(element('inspector'), (id) => this.select(id));
     try {
       this.stage = new Stage(element('stage'));
@@ -38,7 +47,9 @@ export class Scenery {
   open(extent: Extent): void {
     this.stage?.open(extent);
     this.look.speedMax = 0;
+    this.setLook('glass', false);
     this.select(undefined);
+    this.fresh = true;
   }
   show(world: WorldView, beside: Beside = { marks: [] }): void {
     this.stale = false;
@@ -48,6 +59,8 @@ export class Scenery {
       }
     }
     this.stage?.update(world, this.look, this.selected, beside);
+    if (this.fresh && this.stage?.hidden) this.setLook('glass', true);
+    this.fresh = false;
     this.inspector.update(world, this.stage?.bodies.rows ?? world.bodies(), this.selected);
     this.showLegend();
   }
@@ -72,6 +85,7 @@ export class Scenery {
       c: () => this.setLook('contacts', !this.look.contacts),
       j: () => this.setLook('joints', !this.look.joints),
       b: () => this.setLook('bounds', !this.look.bounds),
+      g: () => this.setLook('glass', !this.look.glass),
       f: () => this.setLook('follow', this.selected !== undefined && !this.look.follow),
       r: () => this.resetCamera(),
       Escape: () => (element('keys').hidden ? this.select(undefined) : toggleHelp()),
@@ -91,7 +105,9 @@ export class Scenery {
   }
   private resetCamera(): void {
     this.setLook('follow', false);
-    this.stage?.resetCamera();
+    const extent = this.extent?.();
+    if (extent === undefined) this.stage?.resetCamera();
+    else this.stage?.refit(extent);
   }
   private showLegend(): void {
     const { colourBy, contacts, speedMax } = this.look;
@@ -127,7 +143,7 @@ export class Scenery {
     let from: [number, number] = [0, 0];
     canvas.addEventListener('pointerdown', (event) => (from = [event.offsetX, event.offsetY]));
     canvas.addEventListener('click', (event) => {
-      if (Math.hypot(event.offsetX - from[0], event.offsetY - from[1]) < 4) {
+      if (Math.hypot(event.offsetX - from[0], event.offsetY - from[1]) < clickPixels) {
         this.select(this.stage?.pick(event.offsetX, event.offsetY)?.id);
       }
     });

@@ -29,6 +29,8 @@ export interface Look {
   joints: boolean;
   bounds: boolean;
   follow: boolean;
+  /** Fixed bodies are transparent: what they enclose is seen. */
+  glass: boolean;
   speedMax: number;
 }
 
@@ -52,6 +54,8 @@ const viewFrom = new Vector3(1.25, 1.1, 2.3).normalize();
 const background = '#14181e';
 /** A body this far from the scene's origin, m, is followed to a new origin: floats stay fine near the camera. */
 const originDistanceMax = 4096;
+/** So many bodies stand for all of a scene. */
+const hiddenBodiesMax = 40;
 
 export class Stage {
   bodies!: Bodies;
@@ -106,6 +110,11 @@ export class Stage {
     this.resetCamera();
   }
 
+  /** Looks at where the bodies are now. */
+  refit(extent: Extent): void {
+    this.extent = extent;
+    this.resetCamera();
+  }
   /** Looks at the middle again. The next update() draws from there. */
   resetCamera(): void {
     this.origin = this.extent.middle;
@@ -129,11 +138,12 @@ export class Stage {
       const across = Math.max((Math.abs(at.dot(right)) + size) / aspect, Math.abs(at.dot(above)) + size);
       return across / tangent + at.dot(viewFrom);
     });
-    return Math.max(1.08 * Math.max(...needed, this.radius), this.controls.minDistance);
+    return Math.max(1.08 * Math.max(...needed, this.extent.radius), this.controls.minDistance);
   }
 
   /** Takes over the world's present tick. */
   update(world: WorldView, look: Look, selected: BodyId | undefined, { marks, second, pull }: Beside): void {
+    this.bodies.glass = look.glass;
     this.bodies.update(world, this.origin, look.colourBy, look.speedMax);
     if (look.follow && selected) this.follow(selected, world, look);
     if (second === undefined) this.ghosts.clear();
@@ -184,6 +194,17 @@ export class Stage {
     this.camera.aspect = width / Math.max(1, height);
     this.camera.updateProjectionMatrix();
     return true;
+  }
+
+  /** Whether fixed bodies hide most of the bodies that move. */
+  get hidden(): boolean {
+    const moving = this.bodies.rows.filter((row) => row.type !== 'fixed').slice(0, hiddenBodiesMax);
+    const hidden = moving.filter(({ id }) => {
+      const to = this.bodies.positionOf(id.slot)!.sub(this.camera.position).normalize();
+      const first = this.bodies.pick(new Raycaster(this.camera.position, to));
+      return first !== undefined && this.bodies.isFixed(first.id.slot);
+    });
+    return hidden.length > moving.length / 2;
   }
 
   /** The body at a pixel of the canvas, and the point of it that is seen there. */
