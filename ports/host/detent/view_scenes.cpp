@@ -43,7 +43,8 @@ std::string title_of(const std::filesystem::path& path) {
   return title;
 }
 
-std::string play(const Engine& engine, const std::string& path, const std::string& output, SharedAssets& shared, PlayedScene& scene) {
+std::string play(const Engine& engine, const std::string& path, const std::string& output, SharedAssets& shared,
+                 PlayedScene& scene) {
   Node root;
   Problem problem;
   if (!read_scene_file(path, root, problem)) return problem_text(path, problem);
