@@ -89,6 +89,23 @@ test('the list is searched by names and descriptions', sampleOptions, async () =
   await page.close();
 });
 
+test('an address names a scene, and bodies behind walls are seen through glass', sampleOptions, async () => {
+  const page = await open(`${samplesPage.href}#eight%20fast%20bodies%20in%20a%20room`);
+  await paused(page, 'eight fast bodies in a room');
+  await drawn(page);
+  assert.equal(await page.getAttribute('[data-look=glass]', 'aria-pressed'), 'true');
+  const glass = (await picture(page)).colours;
+  await page.keyboard.press('g');
+  await drawn(page);
+  assert.ok((await picture(page)).colours < glass / 2, 'the walls do not hide the bodies');
+  await page.evaluate(() => (location.hash = '%zz'));
+  await page.waitForFunction(() => document.body.dataset.scene === 'stack');
+  await drawn(page);
+  assert.equal(await page.getAttribute('[data-look=glass]', 'aria-pressed'), 'false');
+  assert.deepEqual(page.faults, []);
+  await page.close();
+});
+
 /** Writes a scene and its page. */
 function pageOf(name, scene, ...more) {
   const file = join(browser.folder, `${name}.json`);

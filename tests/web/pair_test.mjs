@@ -24,6 +24,7 @@ function machine(scene, ...more) {
   return new Uint8Array(readFileSync(file));
 }
 const marksOf = (page) => page.evaluate(() => document.body.dataset.marks);
+const ghostsOf = (page) => page.evaluate(() => Number(document.body.dataset.ghosts));
 const noticeOf = (page) => page.textContent('#notice');
 
 async function withPair(a, b, body) {
@@ -83,6 +84,15 @@ test('without a trace of the machine whose recording does not verify, the page n
     at: 17,
     says: /tick 17 differs\n  to know more, on the machine that recorded it: detent trace b.rec -o b.trace.rec --level 2 --from 17 --to 17$/,
     marks: '',
+  }),
+);
+
+test('if the first recording does not verify, the page stops before the tick that it cannot show', options, () =>
+  parts(machine('stack', 40, 2, 1, 0, 'flip', 17, 4, 20), machine('stack', 40, 0, 1, 0), {
+    verdict: 'tick 17 differs',
+    at: 16,
+    says: new RegExp(`tick 17 differs, first at stage calls: body 4 \\(generation 1\\), linear_velocity.y: ${values}$`),
+    marks: '4',
   }),
 );
 
@@ -191,11 +201,17 @@ test('a file dropped on the page is the second recording, and the ghosts of what
   assert.match(await noticeOf(page), /^first.rec and second.rec: equal up to tick 19; tick 20 differs, first at stage calls/);
   await page.waitForFunction(() => document.querySelector('#ghosts').textContent.startsWith('ghosts: second.rec'));
   assert.notDeepEqual((await picture(page)).png, alone.png);
+  assert.equal(await ghostsOf(page), 2); // the ball and the box, which have each other's place
   await page.keyboard.press('d');
   await shows(page, 20);
-  // Another file replaces it.
-  await drop(page, 'same.rec', made('created'));
+  assert.equal(await ghostsOf(page), 2);
+  await page.keyboard.press('ArrowLeft');
+  await shows(page, 19);
+  assert.equal(await ghostsOf(page), 0);
+  // Another file replaces it, also one of the same name.
+  await drop(page, 'first.rec', made('created'));
   await pairVerdict(page, 'all ticks of both agree');
+  assert.equal(await page.textContent('#name'), 'first.rec and first.rec (second)');
   assert.ok(await page.isHidden('#notice'));
   await page.click('#end');
   await shows(page, 60);

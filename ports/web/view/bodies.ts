@@ -73,6 +73,10 @@ export class Bodies {
     });
     for (const [key, batch] of this.batches) this.fill(key, batch, by, speedMax);
   }
+  /** How many are drawn. */
+  get drawn(): number {
+    return [...this.batches.values()].reduce((sum, batch) => sum + batch.mesh.count, 0);
+  }
   /** Draws nothing. */
   clear(): void {
     this.rows = [];

@@ -27,7 +27,7 @@ export interface LiveScene {
 export class LiveViewer {
   private readonly scenery: Scenery;
   private readonly speeds: Speeds;
-  private scene!: LiveScene;
+  private scene: LiveScene | undefined;
   private world: LiveWorld | undefined;
   private last: LiveStep | undefined;
   /** A body under the pressed mouse, and where it was pressed; it is held once the mouse has moved. */
@@ -38,7 +38,8 @@ export class LiveViewer {
   /** A tick that differs from the scene's though the reader has changed nothing. */
   private differs: number | undefined;
   private agreed = 0;
-  private materials = new Map<number, { id: BodyId; material: Material }>();
+  /** What the scene gave the bodies, by their ids. */
+  private readonly materials = new Map<string, Material>();
   private tickSeconds = 1 / 60;
   private playing = false;
   private due = 0;
@@ -61,7 +62,7 @@ export class LiveViewer {
       ...this.scenery.keys(),
       ' ': () => this.setPlaying(!this.playing),
       ArrowRight: (shift) => this.stepBy(shift ? 10 : 1),
-      Home: () => this.open(this.scene),
+      Home: () => this.restart(),
       '[': () => this.speeds.change(-1),
       ']': () => this.speeds.change(1),
     });
@@ -72,11 +73,9 @@ export class LiveViewer {
   open(scene: LiveScene): void {
     this.close();
     notice('');
-    this.scene = scene;
     try {
-      const trial = Playback.open(this.detent, scene.recording, scene.assets);
-      this.scenery.open(survey(trial, surveyWork));
-      trial.close();
+      if (scene !== this.scene) this.survey(scene); // the camera stays if a scene starts again
+      this.scene = scene;
       this.world = LiveWorld.open(this.module, scene.recording, scene.assets);
     } catch (error) {
       notice(`This scene cannot be shown: ${'text' in (error as object) ? (error as { text: string }).text : String(error)}`);
@@ -84,10 +83,7 @@ export class LiveViewer {
       return;
     }
     this.tickSeconds = this.world.settings().tick;
-    this.materials = new Map();
-    for (const { id } of this.world.bodies()) {
-      this.materials.set(id.slot, { id, material: this.world.body(id).def.material });
-    }
+    this.materials.clear();
     element<HTMLInputElement>('friction').value = '1';
     element('friction-value').textContent = '× 1';
     element('name').textContent = scene.name;
@@ -95,6 +91,17 @@ export class LiveViewer {
     document.title = `${scene.name} – Detent`;
     document.body.dataset['scene'] = scene.name;
     this.setPlaying(true);
+  }
+  private survey(scene: LiveScene): void {
+    const trial = Playback.open(this.detent, scene.recording, scene.assets);
+    try {
+      this.scenery.open(survey(trial, surveyWork));
+    } finally {
+      trial.close();
+    }
+  }
+  private restart(): void {
+    if (this.scene !== undefined) this.open(this.scene);
   }
   private close(): void {
     this.world?.destroy();
@@ -192,7 +199,7 @@ export class LiveViewer {
 
   private bindButtons(): void {
     const actions: Record<string, () => void> = {
-      start: () => this.open(this.scene),
+      start: () => this.restart(),
       play: () => this.setPlaying(!this.playing),
       forward: () => this.stepBy(1),
       save: () => this.save(),
@@ -201,7 +208,7 @@ export class LiveViewer {
     element('start').title = 'start again (Home)';
   }
   private save(): void {
-    if (this.world === undefined) return;
+    if (this.world === undefined || this.scene === undefined) return;
     const link = document.createElement('a');
     link.href = URL.createObjectURL(new Blob([this.world.recording() as BlobPart]));
     link.download = `${this.scene.name.replaceAll(' ', '_')}.rec`;
@@ -222,11 +229,17 @@ export class LiveViewer {
     slider('substeps', (world, value) => world.setSettings({ substeps: value }));
     slider('friction', (world, value) => {
       element('friction-value').textContent = `× ${value}`;
-      for (const { id, material } of this.materials.values()) {
-        if (!world.has(id)) continue;
+      for (const { id } of world.bodies()) {
+        const material = this.materialOf(world, id);
         world.setMaterial(id, { ...material, friction: Math.min(16, value * (material.friction ?? 0)) });
       }
     });
+  }
+  private materialOf(world: LiveWorld, id: BodyId): Material {
+    const key = `${id.slot}.${id.generation}`;
+    const material = this.materials.get(key) ?? world.body(id).def.material;
+    this.materials.set(key, material);
+    return material;
   }
   /** The scene's own calls may change them, too. */
   private showSettings(world: LiveWorld): void {

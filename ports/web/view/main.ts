@@ -34,7 +34,8 @@ function show(module: Module, recordings: Named[], assets: Uint8Array[]): void {
   const playback = Playback.open(detent, first.bytes, assets);
   describe(first.name, playback);
   const viewer = new Viewer(playback);
-  const compare = (other: Named) => {
+  const compare = (given: Named) => {
+    const other = given.name === first.name ? { ...given, name: `${given.name} (second)` } : given;
     element('name').textContent = `${first.name} and ${other.name}`;
     viewer.compareWith(new Pair(detent, module, playback, first, other, assets));
   };

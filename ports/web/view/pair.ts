@@ -38,18 +38,19 @@ export class Pair {
       return;
     }
     // After the next frame: this takes as long as replaying both up to the difference.
-    setTimeout(() => (this.comparison = compareRecordings(module, a, b, assets)), 30);
+    setTimeout(() => this.compare(module, assets), 30);
+  }
+  private compare(module: Module, assets: Uint8Array[]): void {
+    try {
+      this.comparison = compareRecordings(module, this.a, this.b, assets);
+    } catch (error) {
+      this.refused = `${this.a.name} and ${this.b.name} cannot be compared here: ${String(error)}. Use detent diff.`;
+    }
   }
   close(): void {
     this.playback?.close();
   }
 
-  get name(): string {
-    return this.b.name;
-  }
-  get compared(): boolean {
-    return this.comparison !== undefined || this.refused !== '';
-  }
   verifyFor(milliseconds: number): void {
     this.playback?.verifyFor(milliseconds);
   }

@@ -2,6 +2,15 @@
 import { element } from './elements.js';
 import type { EmbeddedScene } from './embedded.js';
 
+/** An address may be anything. */
+function nameIn(hash: string): string {
+  try {
+    return decodeURIComponent(hash.slice(1));
+  } catch {
+    return '';
+  }
+}
+
 /** Calls `choose` with the scene that the reader chooses; with the first one, or that of the address, at once. */
 export function bindSamples(scenes: EmbeddedScene[], choose: (scene: EmbeddedScene) => void): void {
   document.body.classList.add('samples');
@@ -17,7 +26,7 @@ export function bindSamples(scenes: EmbeddedScene[], choose: (scene: EmbeddedSce
   element('list').replaceChildren(...rows);
 
   const show = () => {
-    const name = decodeURIComponent(location.hash.slice(1));
+    const name = nameIn(location.hash);
     const index = Math.max(0, scenes.findIndex((scene) => scene.name === name));
     rows.forEach((row, i) => row.classList.toggle('on', i === index));
     rows[index]!.scrollIntoView({ block: 'nearest' });

@@ -196,6 +196,10 @@ export class Stage {
     return true;
   }
 
+  /** How many bodies of the second world are drawn. */
+  get ghostsDrawn(): number {
+    return this.ghosts.drawn;
+  }
   /** Whether fixed bodies hide most of the bodies that move. */
   get hidden(): boolean {
     const moving = this.bodies.rows.filter((row) => row.type !== 'fixed').slice(0, hiddenBodiesMax);

@@ -98,6 +98,7 @@ export class Viewer {
   private refresh(): void {
     const { shown, tick, report } = this.playback;
     this.scenery.show(shown, { marks: this.marks(), second: this.pair?.at(tick)?.shown });
+    document.body.dataset['ghosts'] = String(this.scenery.stage?.ghostsDrawn ?? 0);
     element('ghosts').textContent = this.pair?.legend(tick) ?? '';
     element('tick').textContent = String(tick);
     element('time').textContent = `${(tick * this.tickSeconds).toFixed(2)} s`;
