@@ -172,6 +172,11 @@ test('equal recordings are said to be equal in all ticks of both', options, asyn
     await shows(page, 80);
     assert.equal(await page.textContent('#ghosts'), 'b.rec ends at tick 60');
   });
+  // Two that are equal, of a machine with a fault: they agree with each other, and not with this page.
+  const flipped = machine('stack', 40, 0, 1, 0, 'flip', 17, 4, 20);
+  await withPair(flipped, flipped, async (page) => {
+    assert.equal(await verdictOf(page), 'a.rec: tick 17 differs');
+  });
 });
 
 /** Drops a file on the page, as a reader does. */

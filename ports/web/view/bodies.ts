@@ -91,7 +91,7 @@ export class Bodies {
   }
 
   private batchOf(row: BodyRow, world: WorldView): Batch {
-    const fixed = row.type === 'fixed';
+    const fixed = row.type === 'fixed' && !row.sensor;
     const key = `${row.look}${row.sensor ? 'sensor' : fixed ? 'fixed' : ''}`;
     let batch = this.batches.get(key);
     if (batch === undefined) {
@@ -174,24 +174,29 @@ export class Bodies {
     rim.show(batch.mesh.geometry, this.matrices.get(row.id.slot)!, batch.shape.type === 'terrain');
   }
 
+  /** Whether it is fixed, and no sensor. */
   isFixed(slot: number): boolean {
-    return this.bySlot.get(slot)?.type === 'fixed';
+    const row = this.bySlot.get(slot);
+    return row?.type === 'fixed' && !row.sensor;
   }
   /** Where the body is, from the scene's origin. */
   positionOf(slot: number): Vector3 | undefined {
     const matrix = this.matrices.get(slot);
     return matrix && new Vector3().setFromMatrixPosition(matrix);
   }
-  /** The first body that the ray meets, and where, from the scene's origin. */
+  /** The first body that the ray meets, and where, from the scene's origin. It goes through sensors to a body that moves. */
   pick(ray: Raycaster): { id: BodyId; point: Vector3 } | undefined {
-    for (const hit of ray.intersectObjects(
+    let sensor: { id: BodyId; point: Vector3 } | undefined;
+    for (const { object, instanceId, point } of ray.intersectObjects(
       [...this.batches.values()].filter((b) => b.rows.length > 0).map((b) => b.mesh),
     )) {
-      const batch = [...this.batches.values()].find((each) => each.mesh === hit.object);
-      const row = batch?.rows[hit.instanceId ?? -1];
-      if (row !== undefined) return { id: row.id, point: hit.point };
+      const batch = [...this.batches.values()].find((each) => each.mesh === object);
+      const row = batch?.rows[instanceId ?? -1];
+      if (row === undefined) continue;
+      if (!row.sensor) return row.type === 'fixed' && sensor !== undefined ? sensor : { id: row.id, point };
+      sensor ??= { id: row.id, point };
     }
-    return undefined;
+    return sensor;
   }
 }
 
