@@ -5,6 +5,7 @@
 #include "file.h"
 #include "own_replay.h"
 #include "ports/config_text.h"
+#include "replay/format.h"
 #include "text.h"
 
 namespace detent {
