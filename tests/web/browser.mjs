@@ -1,5 +1,5 @@
 /** A headless Chromium for a test, with software WebGL and an empty profile; and pages made by `detent view`. */
-import { execFileSync } from 'node:child_process';
+import { execFileSync, spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
@@ -68,6 +68,21 @@ export class Browser {
     writeFileSync(recording, bytes);
     execFileSync(tool, ['view', recording, '-o', page, ...options], { stdio: ['ignore', 'pipe', 'pipe'] });
     return pathToFileURL(page).href;
+  }
+
+  /** As make(), of two recordings, a.rec and b.rec. */
+  makePair(a, b) {
+    const files = ['a.rec', 'b.rec'].map((name) => join(this.folder, name));
+    writeFileSync(files[0], a);
+    writeFileSync(files[1], b);
+    const page = join(this.folder, 'pair.html');
+    execFileSync(tool, ['view', ...files, '-o', page], { stdio: ['ignore', 'pipe', 'pipe'] });
+    return pathToFileURL(page).href;
+  }
+  /** What `detent diff` says of a.rec and b.rec, without the line's start. */
+  difference() {
+    const run = spawnSync(tool, ['diff', 'a.rec', 'b.rec'], { cwd: this.folder, encoding: 'utf8' });
+    return run.stdout.trim();
   }
 
   /** A page as make() writes it, but with other bytes for its recording: the tool would refuse them. */

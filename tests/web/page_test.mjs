@@ -178,6 +178,27 @@ test('what a step loses is told in red', options, async () => {
   });
 });
 
+test('a body within a sensor is seen, and chosen', options, async () => {
+  const detent = await load('fx64');
+  const world = detent.createWorld({ capacity: { bodies: 2, contacts: 4, sensed: 2 }, gravity: [0, 0, 0] });
+  world.createBody({ type: 'fixed', shape: shapes.box([0.8, 0.8, 0.8]), sensor: true });
+  world.createBody({ shape: shapes.sphere(0.3), linearVelocity: [0.5, 0, 0] });
+  world.record();
+  for (let tick = 0; tick < 40; ++tick) world.step();
+  await withPage('sensor.rec', world.endRecording(), async (page) => {
+    await verdictOf(page);
+    const still = (await picture(page)).png;
+    await page.click('#end');
+    await shows(page, 40);
+    assert.notDeepEqual((await picture(page)).png, still);
+    // And is chosen: a click goes through the sensor.
+    const stage = await page.locator('#stage').boundingBox();
+    await page.mouse.click(stage.x + stage.width / 2, stage.y + stage.height / 2);
+    await drawn(page);
+    assert.match(await page.textContent('#inspector'), /typedynamic/);
+  });
+});
+
 /** The header of another simulation version, under a right checksum. */
 function ofVersion(bytes, version) {
   const changed = bytes.slice();

@@ -3,6 +3,7 @@
 #include "call_difference.h"
 #include "difference.h"
 #include "own_replay.h"
+#include "text.h"
 #include "tick_reader.h"
 
 namespace detent {
@@ -110,9 +111,7 @@ Survey survey_of(const Side& side_a, const Side& side_b) {
     if (!compare_tick(a, b, survey)) return survey;
   }
   if (a.finished && b.finished && a.tick == b.tick) {
-    // bytes in memory may cover only a window of ticks
-    const bool whole = side_a.recorded.bytes == nullptr && side_b.recorded.bytes == nullptr;
-    if (whole) compare_calls(a, b, a.tick + 1, survey);
+    if (!side_a.recorded.window && !side_b.recorded.window) compare_calls(a, b, a.tick + 1, survey);
     if (a.digest != b.digest) {
       survey.states_differ = true;
       survey.tick = a.tick;
@@ -154,6 +153,7 @@ bool trace_here(Side& side, uint64_t from, uint64_t to, const Assets& assets) {
       trace_to(side.recorded, assets, {TraceLevel::full, from, to}, {keep, bytes.get()}, no_progress);
   if (!made.problem.empty() || made.last < to || (!side.here && made.first_other != 0)) return false;
   side.recorded.bytes = bytes;
+  side.recorded.window = true;
   return true;
 }
 
@@ -315,6 +315,8 @@ Side side_of(const std::string& path) {
 }  // namespace
 
 Difference diff(const DiffRequest& request) { return compare(side_of(request.a), side_of(request.b), request.assets); }
+
+Difference diff(const Recorded& a, const Recorded& b, const Assets& assets) { return compare({a}, {b}, assets); }
 
 Difference explain(const ReadRequest& request, uint64_t tick) {
   Side recorded = side_of(request.path), here = recorded;

@@ -126,12 +126,11 @@ int run_diff(DiffRequest request, const std::vector<std::string>& asset_paths, c
 
 int run_view(ViewRequest& request) {
   if (request.output.empty()) {
-    request.output = request.path;
+    request.output = request.paths.front();
     if (ends_with(request.output, k_compressed_suffix)) request.output.resize(request.output.size() - 4);
     request.output += ".html";
   }
-  if (overwrites(request.output, {request.path}) || overwrites(request.output, request.asset_paths))
-    return k_exit_usage;
+  if (overwrites(request.output, request.paths) || overwrites(request.output, request.asset_paths)) return k_exit_usage;
   return write_view(request) ? k_exit_good : k_exit_bad;
 }
 
@@ -319,8 +318,14 @@ int run_command(int argc, char** argv) {
 
   ViewRequest viewing;
   CLI::App* view = app.add_subcommand(
-      "view", "Write a page that replays, verifies and draws a recording in a browser, without a network");
-  view->add_option("file", viewing.path, "A recording")->required();
+      "view",
+      "Write a page that replays, verifies and draws a recording in a browser, without a network; with two, it plays "
+      "them to the first difference; a scene goes on live, and bodies can be thrown");
+  view->add_option("file", viewing.paths, "A recording, two of the same match, or scenes (*.json)")->required();
+  viewing.config = configs.front();
+  view->add_option("--config", viewing.config, "The math configuration of scenes")
+      ->check(CLI::IsMember(configs))
+      ->capture_default_str();
   view->add_option("-o,--output", viewing.output, "The page to write; FILE.html if it is not given");
   add_assets(view, viewing.asset_paths);
 

@@ -1,9 +1,7 @@
 #include "own_replay.h"
 
-#include <string.h>
-
-#include "file.h"
-#include "replay/query_command.h"
+#include "repeat_call.h"
+#include "replay/command.h"
 #include "replay/replay_watch.h"
 
 namespace detent {
@@ -56,28 +54,8 @@ void OwnReplay::called(void* context, const uint8_t* record, uint32_t count) {
 
 void OwnReplay::call(const uint8_t* record, uint32_t count) {
   if (!problem.empty()) return;
-  Reader reader{record, count, 1};
   const RecordTag tag = static_cast<RecordTag>(record[0]);
-  Status status = Status::corrupt;
-  bool same_id = true;
-  if (tag == RecordTag::query) {
-    uint64_t length = 0, kind = 0;
-    reader.bits("query length", length, 2);
-    reader.bits("query kind", kind, 1);
-    alignas(8) uint8_t command[k_query_command_bytes] = {};
-    const QueryCode* const code = find_query(kind);
-    if (code == nullptr) return;
-    code->visit(reader, command);
-    status = recorder_->make(*code, command);
-  } else if (const CommandCode* const code = find_command(tag)) {
-    alignas(8) uint8_t command[k_command_bytes_max] = {};
-    code->visit(reader, command);
-    BodyId recorded, given;  // or joint ids
-    memcpy(&recorded, command, sizeof recorded);
-    status = recorder_->make(*code, command);
-    memcpy(&given, command, sizeof given);
-    same_id = given == recorded;
-  }
+  const auto [status, same_id] = repeat_call(*recorder_, record, count);
   if (status == Status::ok && same_id) return;
   refused = true;
   fail("tick " + std::to_string(tick + 1) + ": this machine " +
@@ -130,45 +108,6 @@ TraceMade trace_to(const Recorded& recorded, const Assets& assets, const TraceDe
   replay.verified();
   made.first_other = replay.first_other;
   return made;
-}
-
-Outcome trace(const TraceRequest& request, const Progress& progress) {
-  Recorded recorded;
-  recorded.path = request.reading.path;
-  {
-    // Returns the same outcome as the other commands for a file that cannot be read or has another configuration.
-    std::string problem;
-    const std::unique_ptr<Input> input = recorded.open(problem);
-    if (input == nullptr) return failed(problem);
-    uint8_t buffer[k_recording_buffer_bytes];
-    Player player(source_of(*input), buffer, sizeof buffer);
-    if (player.open() != Status::ok) {
-      Outcome outcome = failed(problem_text(player.error(), *input));
-      outcome.other_config = player.error().status == Status::config_differs;
-      return outcome;
-    }
-  }
-  std::string problem;
-  const std::unique_ptr<Output> output =
-      Output::open(request.output, ends_with(request.output, k_compressed_suffix), problem);
-  if (output == nullptr) return failed(request.output + " " + problem);
-  const TraceLevel level = request.full ? TraceLevel::full : TraceLevel::stages;
-  const TraceDef def = {level, request.reading.from, request.reading.to};
-  const TraceMade made = trace_to(recorded, request.reading.assets, def, sink_of(*output), progress);
-  Outcome outcome;
-  if (!made.problem.empty()) {
-    outcome = failed(made.problem);
-  } else if (made.last < def.to) {
-    outcome = failed("has no tick " + std::to_string(def.to));
-  } else if (!output->close()) {
-    outcome = failed(with_reason(request.output + " cannot be written"));
-  }
-  outcome.ticks = made.ticks;
-  outcome.tick = made.last;
-  outcome.first_bad_tick = made.first_other;
-  outcome.digest = made.digest;
-  outcome.file_bytes = output->file_bytes;
-  return outcome;
 }
 
 }  // namespace DETENT_NAMESPACE

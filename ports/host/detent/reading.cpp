@@ -1,17 +1,11 @@
 #include "reading.h"
 
 #include <detent/numbers.h>
-#include <string.h>
 
-#include "examples/scenes/scene.h"
 #include "file.h"
+#include "own_replay.h"
 #include "ports/config_text.h"
 #include "replay/format.h"
-#include "shape/compound.h"
-#include "shape/height_field.h"
-#include "shape/hull.h"
-#include "shape/mesh.h"
-#include "state/view.h"
 #include "text.h"
 
 namespace detent {
@@ -20,13 +14,6 @@ inline namespace DETENT_NAMESPACE {
 using namespace detent_tool;
 
 namespace {
-
-Status read_input(void* input, uint8_t* bytes, uint32_t count, uint32_t& got) {
-  return static_cast<Input*>(input)->read(bytes, count, got) ? Status::ok : Status::sink_failed;
-}
-Status seek_input(void* input, uint64_t offset) {
-  return static_cast<Input*>(input)->seek(offset) ? Status::ok : Status::sink_failed;
-}
 
 /// A recording that is being read, with or without a world.
 class Reading {
@@ -210,57 +197,6 @@ Sink sink_of(Output& output) {
           &output};
 }
 
-Source source_of(Input& input) { return {read_input, &input, seek_input}; }
-
-FileKind kind_of(const uint8_t* bytes, uint32_t count) {
-  uint8_t snapshot[4];
-  for (uint32_t i = 0; i < 4; ++i) snapshot[i] = static_cast<uint8_t>(k_snapshot_magic >> (8 * i));
-  const struct {
-    const uint8_t* magic;
-    uint32_t bytes;
-    FileKind kind;
-  } kinds[] = {{k_recording_magic, sizeof k_recording_magic, FileKind::recording},
-               {k_hull_magic, sizeof k_hull_magic, FileKind::hull},
-               {k_compound_magic, sizeof k_compound_magic, FileKind::compound},
-               {k_mesh_magic, sizeof k_mesh_magic, FileKind::mesh},
-               {k_height_field_magic, sizeof k_height_field_magic, FileKind::height_field},
-               {snapshot, sizeof snapshot, FileKind::snapshot}};
-  for (const auto& each : kinds) {
-    if (count >= each.bytes && memcmp(bytes, each.magic, each.bytes) == 0) return each.kind;
-  }
-  return FileKind::other;
-}
-
-std::string problem_text(const ReplayError& error, Input& input) {
-  uint8_t start[k_file_kind_bytes];
-  uint32_t got = 0;
-  if (error.field == std::string("magic") && error.status != Status::sink_failed && input.seek(0) &&
-      input.read(start, sizeof start, got) && (got != 0 || input.file_bytes == 0)) {
-    const FileKind kind = kind_of(start, got);
-    const std::string text = got == 0 ? "is empty, not a recording" : is_not(kind, "a recording");
-    return kind == FileKind::other ? text + " (no magic number)" : text;
-  }
-  std::string text = status_text(error.status);
-  text += " at byte " + std::to_string(error.offset) + ", tick " + std::to_string(error.tick) + ": " + error.field;
-  if (!input.problem.empty()) text += " (" + input.problem + ")";
-  if (error.digest_recorded != error.digest_replayed) {
-    text += " (recorded " + hexadecimal(error.digest_recorded) + ", here " + hexadecimal(error.digest_replayed) + ")";
-  }
-  return text;
-}
-
-Status ReplayWorld::create(const RecordingInfo& info, const Input& input, const Assets& assets) {
-  // Prevents a hostile header from reserving gigabytes: the seed's size follows from the capacity, so a small file
-  // cannot contain a large one.
-  if (info.snapshot_bytes > input.snapshot_bytes_max) return Status::truncated;
-  WorldDef def;
-  def.capacity = info.capacity;
-  for (const AssetBytes& asset : assets)
-    table.push_back({reinterpret_cast<const uint8_t*>(asset.words.data()), asset.byte_count});
-  const AssetTable given = {table.data(), static_cast<uint32_t>(table.size())};
-  return owned.create(def, table.empty() ? scene_assets() : given);
-}
-
 Header header_of(const RecordingInfo& info) {
   return {config_text(info.config),
           info.format_version,
@@ -333,6 +269,45 @@ Outcome recover(const ReadRequest& request, const std::string& path, const Progr
   outcome.status = outcome.problem.empty() ? status_text(Status::ok) : outcome.problem;
   outcome.field.clear();
   outcome.digest = digest(reading.owned().world);
+  return outcome;
+}
+
+Outcome trace(const TraceRequest& request, const Progress& progress) {
+  Recorded recorded;
+  recorded.path = request.reading.path;
+  {
+    // Returns the same outcome as the other commands for a file that cannot be read or has another configuration.
+    std::string problem;
+    const std::unique_ptr<Input> input = recorded.open(problem);
+    if (input == nullptr) return failed(problem);
+    uint8_t buffer[k_recording_buffer_bytes];
+    Player player(source_of(*input), buffer, sizeof buffer);
+    if (player.open() != Status::ok) {
+      Outcome outcome = failed(problem_text(player.error(), *input));
+      outcome.other_config = player.error().status == Status::config_differs;
+      return outcome;
+    }
+  }
+  std::string problem;
+  const std::unique_ptr<Output> output =
+      Output::open(request.output, ends_with(request.output, k_compressed_suffix), problem);
+  if (output == nullptr) return failed(request.output + " " + problem);
+  const TraceLevel level = request.full ? TraceLevel::full : TraceLevel::stages;
+  const TraceDef def = {level, request.reading.from, request.reading.to};
+  const TraceMade made = trace_to(recorded, request.reading.assets, def, sink_of(*output), progress);
+  Outcome outcome;
+  if (!made.problem.empty()) {
+    outcome = failed(made.problem);
+  } else if (made.last < def.to) {
+    outcome = failed("has no tick " + std::to_string(def.to));
+  } else if (!output->close()) {
+    outcome = failed(with_reason(request.output + " cannot be written"));
+  }
+  outcome.ticks = made.ticks;
+  outcome.tick = made.last;
+  outcome.first_bad_tick = made.first_other;
+  outcome.digest = made.digest;
+  outcome.file_bytes = output->file_bytes;
   return outcome;
 }
 

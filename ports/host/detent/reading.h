@@ -4,6 +4,7 @@
 #include "difference.h"
 #include "engine.h"
 #include "owned_world.h"
+#include "recorded.h"
 #include "stream.h"
 
 /// The readers of an engine, in each configuration: the functions of Engine with the same names.
@@ -36,6 +37,8 @@ detent_tool::Outcome recover(const detent_tool::ReadRequest& request, const std:
                              const detent_tool::Progress& progress);
 
 detent_tool::Difference diff(const detent_tool::DiffRequest& request);
+detent_tool::Difference diff(const detent_tool::Recorded& a, const detent_tool::Recorded& b,
+                             const detent_tool::Assets& assets);
 detent_tool::Difference explain(const detent_tool::ReadRequest& request, uint64_t tick);
 detent_tool::Outcome trace(const detent_tool::TraceRequest& request, const detent_tool::Progress& progress);
 

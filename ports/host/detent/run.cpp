@@ -109,16 +109,19 @@ void summarise(const RunCommand& command, const RunOutcome& outcome) {
 
 }  // namespace
 
-bool run_scene_file(const RunCommand& command) {
+bool read_scene_file(const std::string& path, Node& root, Problem& problem) {
   std::vector<uint8_t> bytes;
-  Problem problem;
-  problem.text = read_file(command.path, bytes, k_json_bytes_max);
+  problem.text = read_file(path, bytes, k_json_bytes_max);
   if (problem.text.empty() && kind_of(bytes) != FileKind::other) problem.text = is_not(kind_of(bytes), "a scene");
   if (problem.text.empty() && bytes.empty()) problem.text = "is empty, not a scene";
-  if (!problem.text.empty()) return refuse(command, {problem});
+  if (!problem.text.empty()) return false;
+  return parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, root, problem);
+}
+
+bool run_scene_file(const RunCommand& command) {
+  Problem problem;
   Node root;
-  if (!parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, root, problem))
-    return refuse(command, {problem});
+  if (!read_scene_file(command.path, root, problem)) return refuse(command, {problem});
   RunRequest request = command.request;
   request.path = command.path;
   request.root = &root;

@@ -40,7 +40,8 @@ struct RunRequest {
   const Node* root = nullptr;
   bool ticks_given = false;
   uint32_t ticks = 0;
-  std::string recording;  ///< path to write; empty: none
+  std::string recording;                     ///< path to write; empty: none
+  std::vector<uint8_t>* recorded = nullptr;  ///< takes the recording instead of a file
   uint32_t digest_interval = 1;
   uint32_t world_bytes_max = 1u << 30;  ///< a scene whose world is larger is refused
   RunPrints prints;
@@ -72,6 +73,8 @@ struct RunCommand {
   RunRequest request;
   bool json = false;
 };
+/// Reads a scene file, but not its definitions. False, with the problem, if it is none.
+bool read_scene_file(const std::string& path, Node& root, Problem& problem);
 /// Reads, plays and prints a scene. False if anything failed; the problems go to standard error.
 bool run_scene_file(const RunCommand& command);
 

@@ -61,33 +61,58 @@ void step_through(const RunRequest& request, uint32_t ticks, Recorder& recorder,
   outcome.sensed_fit = fit.sensed;
 }
 
+/// Where the recording of a run goes: a file, bytes, or nowhere.
+class Recording {
+ public:
+  explicit Recording(const RunRequest& request) : request_(request) {}
+
+  Sink sink() {
+    if (request_.recording.empty() && request_.recorded == nullptr) return {};
+    return {[](void* to, const uint8_t* bytes, uint32_t count) {
+              return static_cast<Recording*>(to)->write(bytes, count) ? Status::ok : Status::sink_failed;
+            },
+            this};
+  }
+  /// The file is made only once the world is. False on failure, with the reason in `problem`.
+  bool open(std::string& problem) {
+    if (request_.recording.empty()) return true;
+    output_ = Output::open(request_.recording, ends_with(request_.recording, k_compressed_suffix), problem);
+    return output_ != nullptr;
+  }
+  bool close() { return output_ == nullptr || output_->close(); }
+  uint64_t bytes() const { return output_ == nullptr ? 0 : output_->file_bytes; }
+
+ private:
+  bool write(const uint8_t* bytes, uint32_t count) {
+    if (request_.recorded == nullptr) return output_->write(bytes, count);
+    request_.recorded->insert(request_.recorded->end(), bytes, bytes + count);
+    return true;
+  }
+
+  const RunRequest& request_;
+  std::unique_ptr<Output> output_;
+};
+
 void play(const RunRequest& request, SceneReading& reading, OwnedWorld& owned, RunOutcome& outcome,
           const RunPrinter& print, const Progress& progress) {
   const EventRoom room(owned.world);
-  std::unique_ptr<Output> output;
-  const auto write = [](void* to, const uint8_t* bytes, uint32_t count) {
-    return (*static_cast<std::unique_ptr<Output>*>(to))->write(bytes, count) ? Status::ok : Status::sink_failed;
-  };
+  Recording recording(request);
   uint8_t buffer[k_recording_buffer_bytes];
-  const bool recorded = !request.recording.empty();
-  Recorder recorder(owned.world, recorded ? Sink{write, &output} : Sink{}, buffer, sizeof buffer);
+  Recorder recorder(owned.world, recording.sink(), buffer, sizeof buffer);
   ScenePlayer player(reading, recorder, request.prints, print);
   if (!player.build()) return;
-  if (recorded) {
-    std::string problem;
-    output = Output::open(request.recording, ends_with(request.recording, k_compressed_suffix), problem);
-    if (output == nullptr) return reading.problem({}, request.recording + " " + problem);
-  }
+  std::string problem;
+  if (!recording.open(problem)) return reading.problem({}, request.recording + " " + problem);
   Status status = recorder.begin({request.digest_interval});
   const uint32_t ticks = request.ticks_given ? request.ticks : reading.scene.ticks;
   if (status == Status::ok) step_through(request, ticks, recorder, player, outcome, print, progress);
   status = recorder.end();
-  if (recorded && reading.problems.empty() && (status != Status::ok || !output->close())) {
+  if (reading.problems.empty() && (status != Status::ok || !recording.close())) {
     reading.problem({}, with_reason(request.recording + " cannot be written"));
   }
   if (request.prints.bodies) player.print_bodies(owned.world, outcome.ticks);
   outcome.calls = player.calls();
-  outcome.recording_bytes = recorded ? output->file_bytes : 0;
+  outcome.recording_bytes = recording.bytes();
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <signal.h>
 #include <string.h>
 
+#include "file.h"
+#include "text.h"
 #include "zstandard.h"
 #if defined(_WIN32)
 #include <io.h>
@@ -35,24 +37,6 @@ struct PlainInput final : Input {
   bool seek(uint64_t offset) override { return seek_in(file.get(), offset); }
 
   File file;
-};
-
-struct ByteInput final : Input {
-  explicit ByteInput(std::shared_ptr<const std::vector<uint8_t>> given) : bytes(std::move(given)) {}
-  bool read(uint8_t* to, uint32_t count, uint32_t& got) override {
-    const uint64_t left = bytes->size() - at;
-    got = left < count ? static_cast<uint32_t>(left) : count;
-    if (got != 0) memcpy(to, bytes->data() + at, got);
-    at += got;
-    return true;
-  }
-  bool seek(uint64_t offset) override {
-    at = offset < bytes->size() ? offset : bytes->size();
-    return true;
-  }
-
-  std::shared_ptr<const std::vector<uint8_t>> bytes;
-  uint64_t at = 0;
 };
 
 struct PlainOutput final : Output {
@@ -188,12 +172,6 @@ std::unique_ptr<Input> Input::open(const std::string& path, std::string& problem
   return input;
 }
 
-std::unique_ptr<Input> open_bytes(std::shared_ptr<const std::vector<uint8_t>> bytes) {
-  auto input = std::make_unique<ByteInput>(std::move(bytes));
-  input->file_bytes = input->bytes_max = input->snapshot_bytes_max = input->bytes->size();
-  return input;
-}
-
 std::unique_ptr<Output> Output::open(const std::string& path, bool compressed, std::string& problem) {
   errno = 0;
   std::error_code error;
@@ -248,10 +226,6 @@ std::string compress(const std::string& from, const std::string& to) {
     if (!output->write(piece, got)) return with_reason(to + " cannot be written");
   }
   return output->close() ? "" : with_reason(to + " cannot be written");
-}
-
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
 }  // namespace detent_tool

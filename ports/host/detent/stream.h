@@ -62,6 +62,5 @@ std::string write_file(const std::string& path, const std::vector<uint8_t>& byte
 std::string compress(const std::string& from, const std::string& to);
 
 inline constexpr const char* k_compressed_suffix = ".zst";
-bool ends_with(const std::string& text, const std::string& end);
 
 }  // namespace detent_tool

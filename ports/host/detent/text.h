@@ -13,6 +13,10 @@ inline std::string hexadecimal(uint64_t value) {
   return text;
 }
 
+inline bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
 /// Replaces control characters: text from a file may contain anything, and a terminal must not execute it.
 inline std::string printable(std::string text) {
   for (char& letter : text) {

@@ -12,6 +12,7 @@
 #include "progress.h"
 #include "release.h"
 #include "stream.h"
+#include "text.h"
 #include "workers.h"
 
 namespace detent_tool {

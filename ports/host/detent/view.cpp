@@ -11,49 +11,12 @@
 #include "stream.h"
 #include "text.h"
 #include "verification.h"
+#include "view_page.h"
+#include "view_scenes.h"
 
 namespace detent_tool {
 
 namespace {
-
-constexpr const char* k_mark = "<!--recording-->";  // where ports/web/view/page.html takes the recording
-
-std::string base64(const uint8_t* bytes, size_t count) {
-  constexpr const char* k_letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((count + 2) / 3 * 4);
-  for (size_t i = 0; i < count; i += 3) {
-    const size_t left = std::min<size_t>(count - i, 3);
-    const uint32_t group = static_cast<uint32_t>(bytes[i]) << 16 |
-                           (left > 1 ? static_cast<uint32_t>(bytes[i + 1]) << 8 : 0u) |
-                           (left > 2 ? static_cast<uint32_t>(bytes[i + 2]) : 0u);
-    for (size_t k = 0; k < 4; ++k) text += k <= left ? k_letters[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
-/// The name in an attribute of the page: a file may be called anything.
-std::string attribute(const std::string& text) {
-  std::string safe;
-  for (const char letter : printable(text)) {
-    const auto unsafe = std::string("&<>\"'").find(letter) != std::string::npos;
-    safe += unsafe ? "&#" + std::to_string(static_cast<int>(letter)) + ";" : std::string(1, letter);
-  }
-  return safe;
-}
-
-/// The page of a configuration without a recording, as ports/web/build makes it: installed with the tool, or in the
-/// build folder beside that of the tool. Empty if there is none.
-std::string find_template(const std::string& config) {
-  std::error_code error;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-  const std::string name = config + ".html";
-  for (const char* folder : {"../share/detent/view", "../../../../web/view"}) {
-    const std::filesystem::path candidate = self / folder / name;
-    if (std::filesystem::is_regular_file(candidate, error)) return candidate.string();
-  }
-  return "";
-}
 
 /// Reads a recording whole, unpacked. Returns the problem; empty if none.
 std::string read_recording(const std::string& path, std::vector<uint8_t>& bytes) {
@@ -71,11 +34,6 @@ std::string read_recording(const std::string& path, std::vector<uint8_t>& bytes)
   return "";
 }
 
-std::string element(const char* kind, const std::string& more, const uint8_t* bytes, size_t count) {
-  return std::string("<script class=\"") + kind + "\" type=\"text/plain\"" + more + ">" + base64(bytes, count) +
-         "</script>\n";
-}
-
 /// The assets of the page: those that are named, or those of the built-in scenes; no more than the world has room for.
 std::string read_assets(const ViewRequest& request, const Outcome& recording, Assets& assets) {
   for (const std::string& path : request.asset_paths) {
@@ -87,47 +45,93 @@ std::string read_assets(const ViewRequest& request, const Outcome& recording, As
   return "";
 }
 
+/// The names of the recordings in the page: those of the files, with their folders if they are equal.
+std::vector<std::string> names_of(const std::vector<std::string>& paths) {
+  std::vector<std::string> names;
+  for (const std::string& path : paths) names.push_back(std::filesystem::path(path).filename().string());
+  return names.size() == 2 && names[0] == names[1] ? paths : names;
+}
+
 /// The problem, with the file's name; empty if the page was written.
 std::string make(const ViewRequest& request, const Outcome& recording) {
-  std::string page;
-  const std::string from = find_template(recording.header.config);
-  if (from.empty()) {
-    if (find_template("fx64").empty())
-      return "detent: this tool has no viewer: build it with ports/web/build, in a checkout of the same version";
-    return request.path + ": this tool has no viewer of configuration " + recording.header.config;
+  ViewPage page;
+  std::string problem = page.open(request.paths.front(), recording.header.config);
+  if (!problem.empty()) return problem;
+  const std::vector<std::string> names = names_of(request.paths);
+  for (size_t i = 0; i < names.size(); ++i) {
+    std::vector<uint8_t> bytes;
+    problem = read_recording(request.paths[i], bytes);
+    if (!problem.empty()) return request.paths[i] + ": " + problem;
+    page.add("recording", {{"name", names[i]}}, bytes.data(), bytes.size());
   }
-  std::vector<uint8_t> bytes;
-  if (const std::string problem = read_file(from, bytes); !problem.empty()) return from + ": " + problem;
-  page.assign(bytes.begin(), bytes.end());
-  const size_t mark = page.find(k_mark);
-  if (mark == std::string::npos) return from + ": is not a page of the viewer";
-
-  bytes.clear();
-  if (const std::string problem = read_recording(request.path, bytes); !problem.empty())
-    return request.path + ": " + problem;
   Assets assets;
-  if (const std::string problem = read_assets(request, recording, assets); !problem.empty()) return problem;
-  const std::string name = std::filesystem::path(request.path).filename().string();
-  std::string elements = element("recording", " data-name=\"" + attribute(name) + "\"", bytes.data(), bytes.size());
+  problem = read_assets(request, recording, assets);
+  if (!problem.empty()) return problem;
   for (const AssetBytes& asset : assets)
-    elements += element("asset", "", reinterpret_cast<const uint8_t*>(asset.words.data()), asset.byte_count);
-  page.replace(mark, std::string(k_mark).size(), elements);
-  const std::string problem = write_file(request.output, {page.begin(), page.end()});
-  return problem.empty() ? "" : request.output + ": " + problem;
+    page.add("asset", {}, reinterpret_cast<const uint8_t*>(asset.words.data()), asset.byte_count);
+  return page.write(request.output);
+}
+
+struct Written {
+  bool good = false;
+  std::string problem;  ///< also of a good page: the damage of a recording
+  uint64_t ticks = 0;   ///< of the first recording or of all scenes
+};
+
+/// Damage after a header is left to the page, which shows the ticks before it.
+Written write(const ViewRequest& request) {
+  Written written;
+  std::vector<Outcome> recordings;
+  for (const std::string& path : request.paths) {
+    const Outcome recording =
+        by_its_engine([&](const Engine& engine) { return engine.info({path}, [](uint64_t, uint64_t) {}); });
+    const std::string problem = path + ": " + recording.problem;
+    if (!recording.header_known || recording.verdict == Verdict::refused) return {false, problem, 0};
+    if (recording.verdict == Verdict::bad && written.problem.empty()) written.problem = problem;
+    recordings.push_back(recording);
+    const std::string& config = recording.header.config;
+    if (config != recordings.front().header.config)
+      return {
+          false,
+          path + ": is of configuration " + config + ", not to be compared with " + recordings.front().header.config,
+          0};
+  }
+  const std::string problem = make(request, recordings.front());
+  written.good = problem.empty();
+  if (!written.good) written.problem = problem;
+  written.ticks = recordings.front().ticks;
+  return written;
+}
+
+std::string listed(const std::vector<std::string>& paths) {
+  if (paths.size() > 2) return std::to_string(paths.size()) + " scenes";
+  return paths.size() == 1 ? paths[0] : paths[0] + " and " + paths[1];
+}
+
+bool are_scenes(const std::vector<std::string>& paths) {
+  return std::all_of(paths.begin(), paths.end(), [](const std::string& path) { return ends_with(path, ".json"); });
+}
+
+Written write_any(const ViewRequest& request) {
+  if (are_scenes(request.paths)) {
+    if (!request.asset_paths.empty()) return {false, "--asset is for recordings: a scene names its files", 0};
+    Written written;
+    written.good = write_scenes(request, written.ticks, written.problem);
+    return written;
+  }
+  if (request.paths.size() > 2)
+    return {false, "a page shows one recording or two, or any number of scenes, whose names end in .json", 0};
+  return write(request);
 }
 
 }  // namespace
 
 bool write_view(const ViewRequest& request) {
-  const Outcome recording =
-      by_its_engine([&](const Engine& engine) { return engine.info({request.path}, [](uint64_t, uint64_t) {}); });
-  // Damage after the header is left to the page, which shows the ticks before it.
-  const bool shown = recording.header_known && recording.verdict != Verdict::refused;
-  std::string problem = shown ? make(request, recording) : request.path + ": " + recording.problem;
-  const bool good = problem.empty();
-  if (good && recording.verdict == Verdict::bad) problem = request.path + ": " + recording.problem;
+  const auto [good, problem, ticks] = write_any(request);
   if (request.json) {
-    nlohmann::ordered_json line = {{"file", request.path}, {"ok", good}};
+    nlohmann::ordered_json line = {{"file", request.paths.front()}};
+    if (request.paths.size() == 2) line["second"] = request.paths[1];
+    line["ok"] = good;
     if (good) line["output"] = request.output;
     if (!problem.empty()) line["problem"] = problem;
     printf("%s\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
@@ -135,7 +139,7 @@ bool write_view(const ViewRequest& request) {
   }
   if (!problem.empty()) fprintf(stderr, "%s\n", printable(problem).c_str());
   if (good) {
-    printf("%s\n", printable(request.output + ": " + std::to_string(recording.ticks) + " ticks of " + request.path +
+    printf("%s\n", printable(request.output + ": " + std::to_string(ticks) + " ticks of " + listed(request.paths) +
                              "; open it in a browser")
                        .c_str());
   }

@@ -1,9 +1,9 @@
 #include <detent/recording.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include <new>
 
+#include "byte_source.h"
 #include "fields.h"
 #include "session.h"
 
@@ -14,9 +14,7 @@ namespace {
 /// world also read that of a replay.
 struct Replay {
   Session session = {};
-  const uint8_t* bytes = nullptr;
-  uint32_t byte_count = 0;
-  uint64_t at = 0;
+  ByteSource from;
   TickResult result = {};
   uint8_t buffer[k_recording_buffer_bytes];
   alignas(Player) uint8_t player_memory[sizeof(Player)];
@@ -24,23 +22,10 @@ struct Replay {
   Player& player() { return *reinterpret_cast<Player*>(player_memory); }
 };
 
-Status read_bytes(void* context, uint8_t* to, uint32_t count, uint32_t& got) {
-  Replay& replay = *static_cast<Replay*>(context);
-  const uint64_t left = replay.at < replay.byte_count ? replay.byte_count - replay.at : 0;
-  got = count < left ? count : static_cast<uint32_t>(left);
-  if (got != 0) memcpy(to, replay.bytes + replay.at, got);
-  replay.at += got;
-  return Status::ok;
-}
-Status seek_bytes(void* context, uint64_t offset) {
-  static_cast<Replay*>(context)->at = offset;
-  return Status::ok;
-}
-
 /// Opens the recording again, from its start.
 Status reopen(Replay& replay) {
-  replay.at = 0;
-  new (replay.player_memory) Player({read_bytes, &replay, seek_bytes}, replay.buffer, sizeof replay.buffer);
+  replay.from.at = 0;
+  new (replay.player_memory) Player(replay.from.source(), replay.buffer, sizeof replay.buffer);
   replay.player().repeat_queries();
   return replay.player().open();
 }
@@ -53,8 +38,7 @@ DETENT_WEB(replay_open) Replay* replay_open(const uint8_t* bytes, uint32_t count
   void* memory = malloc(sizeof(Replay));
   if (memory == nullptr) return nullptr;
   Replay* replay = new (memory) Replay;
-  replay->bytes = bytes;
-  replay->byte_count = count;
+  replay->from = {bytes, count};
   (void)reopen(*replay);  // the error stays in the player
   return replay;
 }
@@ -93,16 +77,10 @@ DETENT_WEB(replay_digest_replayed) uint64_t replay_digest_replayed(Replay* repla
   return replay->player().error().digest_replayed;
 }
 
-/// Makes the world of the replay and loads the seed. Errors: as Player::start(); truncated for a recording that is
-/// smaller than its seed, so that a hostile header cannot ask for gigabytes.
+/// Makes the world of the replay and loads the seed. Errors: as start_session().
 DETENT_WEB(replay_start) uint32_t replay_start(Replay* replay, const uint32_t* asset_at, uint32_t asset_count) {
-  const RecordingInfo& info = replay->player().info();
-  if (replay->player().error().status != Status::ok) return static_cast<uint32_t>(replay->player().error().status);
-  if (info.snapshot_bytes > replay->byte_count) return static_cast<uint32_t>(Status::truncated);
-  WorldDef def;
-  def.capacity = info.capacity;
-  const Status made = open_session(replay->session, def, asset_at, asset_count);
-  return static_cast<uint32_t>(made == Status::ok ? replay->player().start(replay->session.world) : made);
+  return static_cast<uint32_t>(
+      start_session(replay->session, replay->player(), replay->from.count, asset_at, asset_count));
 }
 
 /// Plays one tick and compares its digest (`world` 1), or only reads its bytes. Gives: whether the recording has ended,

@@ -92,6 +92,22 @@ bool make_recorder(Session& session, Sink sink) {
 
 }  // namespace
 
+Status start_session(Session& session, Player& player, uint32_t byte_count, const uint32_t* asset_at,
+                     uint32_t asset_count) {
+  if (player.error().status != Status::ok) return player.error().status;
+  if (player.info().snapshot_bytes > byte_count) return Status::truncated;
+  WorldDef def;
+  def.capacity = player.info().capacity;
+  const Status made = open_session(session, def, asset_at, asset_count);
+  return made == Status::ok ? player.start(session.world) : made;
+}
+
+Status record_session(Session& session, const RecordingDef& def) {
+  if (session.recording.data != nullptr) return Status::bad_argument;
+  if (!make_recorder(session, {write_recording, &session.recording})) return Status::buffer_too_small;
+  return session.recorder->begin(def);
+}
+
 /// Takes a WorldDef of `count` doubles from the desk, and gives the address of the session on it. Errors: as
 /// open_session().
 DETENT_WEB(world_create) uint32_t world_create(uint32_t count, const uint32_t* asset_at, uint32_t asset_count) {
@@ -119,11 +135,9 @@ DETENT_WEB(world_destroy) void world_destroy(Session* session) {
   free(session);
 }
 
-/// Begins a recording of all later calls. Errors: bad_argument (another one has not ended), as Recorder::begin().
+/// Begins a recording. Errors: as record_session().
 DETENT_WEB(world_record) uint32_t world_record(Session* session, uint32_t digest_interval, uint32_t keyframe_interval) {
-  if (session->recording.data != nullptr) return static_cast<uint32_t>(Status::bad_argument);
-  make_recorder(*session, {write_recording, &session->recording});
-  return static_cast<uint32_t>(session->recorder->begin({digest_interval, keyframe_interval}));
+  return static_cast<uint32_t>(record_session(*session, {digest_interval, keyframe_interval}));
 }
 
 /// Ends the recording; gives its address and the number of its bytes, which are valid until the next call.

@@ -31,5 +31,12 @@ struct Session {
 /// keeps. Errors: as create_world(), and buffer_too_small without memory.
 Status open_session(Session& session, const WorldDef& def, const uint32_t* asset_at, uint32_t asset_count);
 void close_session(Session& session);
+/// Loads the seed of a recording, which the player has opened, into a new world. `byte_count`: of the recording.
+/// Errors: as Player::start(); truncated for a recording that is smaller than its seed, so that a hostile header cannot
+/// ask for gigabytes.
+Status start_session(Session& session, Player& player, uint32_t byte_count, const uint32_t* asset_at,
+                     uint32_t asset_count);
+/// Begins a recording of all later calls. Errors: bad_argument (another one has not ended), as Recorder::begin().
+Status record_session(Session& session, const RecordingDef& def);
 
 }  // namespace detent_web

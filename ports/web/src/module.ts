@@ -45,6 +45,7 @@ export class Module {
   private constructor(instance: WebAssembly.Instance) {
     this.native = instance.exports as unknown as Native;
     this.memory = instance.exports['memory'] as WebAssembly.Memory;
+    this.native['_initialize']?.();
   }
   static async load(source: ModuleSource): Promise<Module> {
     return new Module(await WebAssembly.instantiate(await compile(source), {}));
@@ -114,7 +115,10 @@ export class Module {
     const bytes = new Uint8Array(this.memory.buffer);
     let end = address;
     while (bytes[end] !== 0) ++end;
-    return new TextDecoder().decode(bytes.slice(address, end));
+    return this.textOf({ address, count: end - address });
+  }
+  textOf({ address, count }: Place): string {
+    return new TextDecoder().decode(this.bytes(address, count).slice());
   }
 }
 

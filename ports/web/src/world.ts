@@ -67,10 +67,10 @@ export class World extends WorldView {
     }
     return new World(module, module.desk().next(), stored);
   }
-  private constructor(
+  protected constructor(
     module: Module,
     session: number,
-    private readonly assets: Place[],
+    private readonly stored: Place[],
   ) {
     super(module, session);
   }
@@ -78,7 +78,7 @@ export class World extends WorldView {
   destroy(): void {
     this.release();
     this.module.ask('world_destroy', this.session);
-    for (const place of this.assets) this.module.free(place.address);
+    for (const place of this.stored) this.module.free(place.address);
   }
 
   private call(name: keyof typeof calls, ...list: Argument<any>[]): void {

@@ -1,20 +1,14 @@
 /** The bodies of the scene: one instanced mesh for all bodies that look alike. */
 import {
-  BackSide,
   type BufferGeometry,
   CanvasTexture,
   Color,
   DoubleSide,
   DynamicDrawUsage,
-  EdgesGeometry,
   Group,
   InstancedMesh,
-  LineBasicMaterial,
-  LineSegments,
   Matrix4,
   type Material,
-  Mesh,
-  MeshBasicMaterial,
   MeshStandardMaterial,
   Quaternion,
   type Raycaster,
@@ -25,44 +19,44 @@ import {
 import type { BodyId, BodyRow, Full, Shape, Vec3, WorldView } from '../src/index.js';
 import { colourOf, type ColourBy, palette } from './colours.js';
 import { geometryOf } from './geometry.js';
+import { Rim } from './rim.js';
 
-const rimScale = new Vector3(1.06, 1.06, 1.06);
 const floor = new Color('#98a0ab');
+const ghost = new Color(palette.ghost);
 
 interface Batch {
   mesh: InstancedMesh;
   shape: Full<Shape>;
+  fixed: boolean;
   rows: BodyRow[];
 }
 
 export class Bodies {
   readonly group = new Group();
   rows: BodyRow[] = [];
+  /** Fixed bodies are transparent, except the ground. */
+  glass = false;
+  private readonly bySlot = new Map<number, BodyRow>();
   private readonly batches = new Map<string, Batch>();
   private readonly matrices = new Map<number, Matrix4>();
-  private readonly outline: LineSegments;
-  /** The chosen body once more, a little larger and seen from inside: its rim shows around it. */
-  private readonly rim: Mesh;
-  private outlineKey = '';
+  private readonly chosen = new Rim(palette.selected);
+  private readonly marked: Rim[] = [];
   private poses = new Float32Array(0);
 
+  /** `solid`: these bodies are ghosts of its bodies, and are drawn where they differ from them. */
   constructor(
     private readonly planeSize: number,
     private readonly gridStep: number,
+    private readonly solid?: Bodies,
   ) {
-    this.outline = new LineSegments(undefined, new LineBasicMaterial({ color: palette.selected }));
-    this.outline.renderOrder = 2;
-    this.rim = new Mesh(undefined, new MeshBasicMaterial({ color: palette.selected, side: BackSide, fog: false }));
-    for (const object of [this.outline, this.rim]) {
-      object.matrixAutoUpdate = false;
-      object.frustumCulled = false;
-      this.group.add(object);
-    }
+    this.group.add(this.chosen.group);
   }
 
   /** Draws the bodies of a world as they are now. */
-  update(world: WorldView, origin: Vec3, by: ColourBy, speedMax: number, selected: BodyId | undefined): void {
+  update(world: WorldView, origin: Vec3, by: ColourBy, speedMax: number): void {
     this.rows = world.bodies();
+    this.bySlot.clear();
+    for (const row of this.rows) this.bySlot.set(row.id.slot, row);
     if (this.poses.length < 7 * this.rows.length) this.poses = new Float32Array(14 * this.rows.length);
     world.writePoses(this.poses, origin);
     for (const batch of this.batches.values()) batch.rows.length = 0;
@@ -73,20 +67,37 @@ export class Bodies {
     this.rows.forEach((row, i) => {
       position.fromArray(this.poses, 7 * i);
       rotation.fromArray(this.poses, 7 * i + 3);
-      this.matrices.set(row.id.slot, new Matrix4().compose(position, rotation, one));
-      this.batchOf(row, world).rows.push(row);
+      const matrix = new Matrix4().compose(position, rotation, one);
+      this.matrices.set(row.id.slot, matrix);
+      if (this.solid === undefined || !this.solid.shows(row, matrix)) this.batchOf(row, world).rows.push(row);
     });
     for (const [key, batch] of this.batches) this.fill(key, batch, by, speedMax);
-    this.updateOutline(selected);
+  }
+  /** How many are drawn. */
+  get drawn(): number {
+    return [...this.batches.values()].reduce((sum, batch) => sum + batch.mesh.count, 0);
+  }
+  /** Draws nothing. */
+  clear(): void {
+    this.rows = [];
+    this.bySlot.clear();
+    this.matrices.clear();
+    for (const batch of this.batches.values()) batch.mesh.count = batch.rows.length = 0;
+  }
+  /** Whether the same body is drawn at the same place. */
+  private shows(row: BodyRow, at: Matrix4): boolean {
+    const own = this.matrices.get(row.id.slot);
+    return own !== undefined && own.equals(at) && this.bySlot.get(row.id.slot)?.look === row.look;
   }
 
   private batchOf(row: BodyRow, world: WorldView): Batch {
-    const key = `${row.look}${row.sensor ? 'sensor' : ''}`;
+    const fixed = row.type === 'fixed' && !row.sensor;
+    const key = `${row.look}${row.sensor ? 'sensor' : fixed ? 'fixed' : ''}`;
     let batch = this.batches.get(key);
     if (batch === undefined) {
       const { shape } = world.body(row.id).def;
       const geometry = geometryOf(shape, world.outline(row.id), this.planeSize);
-      batch = { mesh: this.makeMesh(geometry, this.materialOf(shape, row.sensor), 16), shape, rows: [] };
+      batch = { mesh: this.makeMesh(geometry, this.materialOf(shape, row.sensor), 16), shape, fixed, rows: [] };
       this.batches.set(key, batch);
     }
     return batch;
@@ -101,6 +112,9 @@ export class Bodies {
     return mesh;
   }
   private materialOf(shape: Full<Shape>, sensor: boolean): Material {
+    if (this.solid !== undefined) {
+      return new MeshStandardMaterial({ transparent: true, opacity: 0.45, depthWrite: false, roughness: 0.5 });
+    }
     if (sensor) return new MeshStandardMaterial({ transparent: true, opacity: 0.25, depthWrite: false, roughness: 1 });
     if (shape.type === 'half_space') return this.floorMaterial();
     const side = shape.type === 'terrain' ? DoubleSide : undefined;
@@ -127,49 +141,73 @@ export class Bodies {
       this.batches.set(key, batch);
     }
     const { mesh, rows } = batch;
+    if (batch.fixed && batch.shape.type !== 'half_space' && this.solid === undefined) setGlass(mesh, this.glass);
     mesh.count = rows.length;
     rows.forEach((row, i) => {
       mesh.setMatrixAt(i, this.matrices.get(row.id.slot)!);
-      mesh.setColorAt(i, batch.shape.type === 'half_space' && !row.sensor ? floor : colourOf(row, by, speedMax));
+      mesh.setColorAt(i, this.colourOf(batch, row, by, speedMax));
     });
     mesh.instanceMatrix.needsUpdate = true;
     if (mesh.instanceColor !== null) mesh.instanceColor.needsUpdate = true;
     mesh.boundingSphere = null; // or a ray misses bodies that have moved
   }
 
-  private updateOutline(selected: BodyId | undefined): void {
-    const row = selected && this.rows.find((each) => each.id.slot === selected.slot);
-    const batch = row && [...this.batches.values()].find((each) => each.rows.includes(row));
-    this.outline.visible = batch !== undefined && batch.shape.type !== 'half_space';
-    this.rim.visible = this.outline.visible && batch?.shape.type !== 'terrain';
-    if (!row || !batch || !this.outline.visible) return;
-    this.rim.geometry = batch.mesh.geometry;
-    this.rim.matrix.copy(this.matrices.get(row.id.slot)!).scale(rimScale);
-    const key = `${row.look}`;
-    if (key !== this.outlineKey) {
-      this.outline.geometry.dispose();
-      this.outline.geometry = new EdgesGeometry(batch.mesh.geometry, 12);
-      this.outlineKey = key;
-    }
-    this.outline.matrix.copy(this.matrices.get(row.id.slot)!);
+  private colourOf(batch: Batch, row: BodyRow, by: ColourBy, speedMax: number): Color {
+    if (this.solid !== undefined) return ghost;
+    return batch.shape.type === 'half_space' && !row.sensor ? floor : colourOf(row, by, speedMax);
   }
 
+  /** Rims the chosen body, and those that are marked, by their slots. */
+  rim(selected: BodyId | undefined, marks: number[]): void {
+    this.rimBody(this.chosen, selected?.slot);
+    while (this.marked.length < marks.length) {
+      const rim = new Rim(palette.marked);
+      this.marked.push(rim);
+      this.group.add(rim.group);
+    }
+    this.marked.forEach((rim, i) => this.rimBody(rim, marks[i] === selected?.slot ? undefined : marks[i]));
+  }
+  private rimBody(rim: Rim, slot: number | undefined): void {
+    const row = slot === undefined ? undefined : this.bySlot.get(slot);
+    const batch = row && [...this.batches.values()].find((each) => each.rows.includes(row));
+    if (!row || !batch || batch.shape.type === 'half_space') return rim.hide();
+    rim.show(batch.mesh.geometry, this.matrices.get(row.id.slot)!, batch.shape.type === 'terrain');
+  }
+
+  /** Whether it is fixed, and no sensor. */
+  isFixed(slot: number): boolean {
+    const row = this.bySlot.get(slot);
+    return row?.type === 'fixed' && !row.sensor;
+  }
   /** Where the body is, from the scene's origin. */
   positionOf(slot: number): Vector3 | undefined {
     const matrix = this.matrices.get(slot);
     return matrix && new Vector3().setFromMatrixPosition(matrix);
   }
-  /** The first body that the ray meets. */
-  pick(ray: Raycaster): BodyId | undefined {
-    for (const hit of ray.intersectObjects(
+  /** The first body that the ray meets, and where, from the scene's origin. It goes through sensors to a body that moves. */
+  pick(ray: Raycaster): { id: BodyId; point: Vector3 } | undefined {
+    let sensor: { id: BodyId; point: Vector3 } | undefined;
+    for (const { object, instanceId, point } of ray.intersectObjects(
       [...this.batches.values()].filter((b) => b.rows.length > 0).map((b) => b.mesh),
     )) {
-      const batch = [...this.batches.values()].find((each) => each.mesh === hit.object);
-      const row = batch?.rows[hit.instanceId ?? -1];
-      if (row !== undefined) return row.id;
+      const batch = [...this.batches.values()].find((each) => each.mesh === object);
+      const row = batch?.rows[instanceId ?? -1];
+      if (row === undefined) continue;
+      if (!row.sensor) return row.type === 'fixed' && sensor !== undefined ? sensor : { id: row.id, point };
+      sensor ??= { id: row.id, point };
     }
-    return undefined;
+    return sensor;
   }
+}
+
+function setGlass(mesh: InstancedMesh, on: boolean): void {
+  const material = mesh.material as MeshStandardMaterial;
+  if (material.transparent === on) return;
+  material.transparent = on;
+  material.opacity = on ? 0.25 : 1;
+  material.depthWrite = !on;
+  material.needsUpdate = true;
+  mesh.castShadow = !on;
 }
 
 /** Ten by ten cells, every tenth line stronger. */

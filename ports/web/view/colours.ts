@@ -15,6 +15,8 @@ export const palette = {
   joint: '#7fd4ff',
   bounds: '#5d6b7c',
   selected: '#ffffff',
+  marked: '#ff5d5d',
+  ghost: '#8fe3ff',
 } as const;
 
 /** Stops of a ramp from slow to fast, dark to bright, also for eyes that do not tell red from green. */

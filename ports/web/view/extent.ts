@@ -1,5 +1,6 @@
 /** Where the bodies of a recording are: what the camera shall see at first. */
 import type { Vec3, WorldView } from '../src/index.js';
+import type { Playback } from './playback.js';
 
 export interface Place {
   position: Vec3;
@@ -18,8 +19,31 @@ const outlierFactor = 3;
 /** Of a large world some bodies stand for all. */
 const bodiesMax = 200;
 
+/** What is played before the first frame, to see where the bodies go: ticks, and work as workOf() counts it. No time, for the
+ *  camera shall be the same on every machine. */
+const surveyTicks = 90;
+const surveyWork = 6000;
+/** Bodies that travel so many times their extent are seen where they start. */
+const travelFactor = 12;
+
+/** Where bodies are in the first part of a recording. `work`: how much of it is played, at most. */
+export function survey(playback: Playback, work = surveyWork): Extent {
+  playback.verifyWork(surveyTicks, work);
+  const [start, ...later] = [0, 0.5, 1].map((share) => {
+    playback.goTo(playback.first + share * (playback.verified - playback.first));
+    return placesOf(playback.shown);
+  });
+  playback.goTo(playback.first);
+  const first = extentOf(start!);
+  const all = extentOf([...start!, ...later.flat()]);
+  return all.radius > travelFactor * first.radius ? first : all;
+}
+
+/** Where bodies are now. */
+export const extentNow = (world: WorldView): Extent => extentOf(placesOf(world));
+
 /** The places of the bodies that move, or of all if none does. */
-export function placesOf(world: WorldView): Place[] {
+function placesOf(world: WorldView): Place[] {
   const rows = world.bodies();
   const moving = rows.filter((row) => row.type !== 'fixed');
   const chosen = moving.length > 0 ? moving : rows;
@@ -34,7 +58,7 @@ export function placesOf(world: WorldView): Place[] {
 }
 
 /** A body that is much farther away than most is left out: it would make all others small. */
-export function extentOf(places: Place[]): Extent {
+function extentOf(places: Place[]): Extent {
   if (places.length === 0) return { middle: [0, 0, 0], radius: 5, reached: [] };
   const axes = [0, 1, 2] as const;
   const most = axes.map((axis) => median(places.map(({ position }) => position[axis])));

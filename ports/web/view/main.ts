@@ -1,8 +1,14 @@
-/** The page of `detent view`: a recording, replayed and verified as it is looked at. */
-import { load, type Detent, type ReplayProblem } from '../src/index.js';
+/** The page of `detent view`: one or two recordings, replayed and verified as they are looked at, or live scenes. */
+import { Detent, type ReplayProblem } from '../src/index.js';
+import { Module } from '../src/module.js';
+import type { Named } from './compare.js';
 import { element, notice } from './elements.js';
-import { embedded, moduleBytes, type Embedded } from './embedded.js';
+import { embedded, moduleBytes, type EmbeddedScene } from './embedded.js';
+import { bindFiles } from './files.js';
+import { LiveViewer } from './live.js';
+import { Pair } from './pair.js';
 import { Playback } from './playback.js';
+import { bindSamples } from './samples.js';
 import { refusal } from './verdict.js';
 import { Viewer } from './viewer.js';
 
@@ -12,7 +18,7 @@ function refuse(text: string): void {
   document.body.dataset['verdict'] = element('verdict').className = 'bad';
 }
 
-function describe({ name }: Embedded, playback: Playback): void {
+function describe(name: string, playback: Playback): void {
   const { header } = playback.shown;
   const seconds = (playback.last - playback.first) * playback.shown.settings().tick;
   document.title = `${name} – Detent`;
@@ -22,22 +28,50 @@ function describe({ name }: Embedded, playback: Playback): void {
   element('last').textContent = String(playback.last);
 }
 
+function show(module: Module, recordings: Named[], assets: Uint8Array[]): void {
+  const detent = new Detent(module);
+  const [first, second] = recordings as [Named, Named?];
+  const playback = Playback.open(detent, first.bytes, assets);
+  describe(first.name, playback);
+  const viewer = new Viewer(playback);
+  const compare = (given: Named) => {
+    const other = given.name === first.name ? { ...given, name: `${given.name} (second)` } : given;
+    element('name').textContent = `${first.name} and ${other.name}`;
+    viewer.compareWith(new Pair(detent, module, playback, first, other, assets));
+  };
+  if (second !== undefined) compare(second);
+  bindFiles(compare);
+}
+
+function showLive(module: Module, scenes: EmbeddedScene[]): void {
+  const viewer = new LiveViewer(new Detent(module), module);
+  let chosen: EmbeddedScene | undefined;
+  const choose = async (scene: EmbeddedScene) => {
+    chosen = scene;
+    const [recording, assets] = await Promise.all([scene.recording(), scene.assets()]);
+    if (chosen === scene) viewer.open({ name: scene.name, text: scene.text, recording, assets });
+  };
+  if (scenes.length === 1) void choose(scenes[0]!);
+  else bindSamples(scenes, (scene) => void choose(scene));
+}
+
 async function main(): Promise<void> {
   const data = embedded(document);
   if (data === undefined) return refuse('This page is a template: detent view writes a recording into it.');
-  element('name').textContent = data.name;
-  let detent: Detent;
+  const { recordings, scenes, assets } = data;
+  element('name').textContent = (recordings[0] ?? scenes[0])!.name;
+  let module: Module;
   try {
-    detent = await load(await moduleBytes(document));
+    module = await Module.load((await moduleBytes(document)) as BufferSource);
   } catch {
     return refuse('This browser cannot run WebAssembly, or is too old for this page.');
   }
-  const header = detent.openRecording(data.recording).header;
+  if (scenes.length > 0) return showLive(module, scenes);
   try {
-    const playback = Playback.open(detent, data.recording, data.assets);
-    describe(data, playback);
-    new Viewer(playback);
+    show(module, recordings, assets);
   } catch (error) {
+    const detent = new Detent(module);
+    const { header } = detent.openRecording(recordings[0]!.bytes);
     if (typeof (error as ReplayProblem).tick === 'number')
       refuse(refusal(error as ReplayProblem, header, detent.simulationVersion));
     else refuse(`This recording cannot be shown: ${String(error)}`);

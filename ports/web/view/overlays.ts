@@ -100,6 +100,8 @@ export class Overlays {
   private readonly contacts = new Strokes(8, true);
   private readonly joints = new Strokes(9, true);
   private readonly bounds = new Strokes(1, false);
+  private readonly pull = new Strokes(9, true);
+  private readonly pullColour = new Color(palette.selected);
   private readonly active = new Color(palette.contact);
   private readonly idle = new Color(palette.idleContact);
   private readonly jointColour = new Color(palette.joint);
@@ -107,15 +109,26 @@ export class Overlays {
 
   /** `length`: of the longest line along a normal, m. */
   constructor(private readonly length: number) {
-    this.group.add(this.contacts.group, this.joints.group, this.bounds.group);
+    this.group.add(this.contacts.group, this.joints.group, this.bounds.group, this.pull.group);
   }
 
-  update(world: WorldView, origin: Vec3, shown: { contacts: boolean; joints: boolean; bounds: boolean }): void {
-    for (const strokes of [this.contacts, this.joints, this.bounds]) strokes.clear();
+  update(
+    world: WorldView,
+    origin: Vec3,
+    shown: { contacts: boolean; joints: boolean; bounds: boolean },
+    pull?: [Vec3, Vec3],
+  ): void {
+    for (const strokes of [this.contacts, this.joints, this.bounds, this.pull]) strokes.clear();
+    if (pull !== undefined) this.drawPull(minus(pull[0], origin), minus(pull[1], origin));
     if (shown.contacts) this.drawContacts(world.contacts(), origin);
     if (shown.joints) this.drawJoints(world, origin);
     if (shown.bounds) this.drawBounds(world.boundsEdges(), origin);
-    for (const strokes of [this.contacts, this.joints, this.bounds]) strokes.show();
+    for (const strokes of [this.contacts, this.joints, this.bounds, this.pull]) strokes.show();
+  }
+  private drawPull(from: Vec3, to: Vec3): void {
+    this.pull.line(from, to, this.pullColour);
+    this.pull.point(from, this.pullColour);
+    this.pull.point(to, this.pullColour);
   }
 
   private drawContacts(contacts: Contact[], origin: Vec3): void {

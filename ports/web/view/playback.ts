@@ -44,10 +44,17 @@ export class Playback {
       try {
         replay.start(assets);
       } catch (error) {
-        throw replay.problem() ?? stopped(error, 0);
+        const problem = replay.problem() ?? stopped(error, 0);
+        for (const each of replays) each.close();
+        throw problem;
       }
     }
     return new Playback(replays[0], replays[1], ticks);
+  }
+
+  close(): void {
+    this.verifier.close();
+    this.shown.close();
   }
 
   /** Verifies ticks for about so many milliseconds. */

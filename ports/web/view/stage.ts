@@ -4,10 +4,14 @@ import {
   DirectionalLight,
   Fog,
   HemisphereLight,
+  InstancedMesh,
+  type Mesh,
   PCFShadowMap,
   PerspectiveCamera,
+  Plane,
   Raycaster,
   Scene,
+  type Texture,
   Vector2,
   Vector3,
   WebGLRenderer,
@@ -25,7 +29,24 @@ export interface Look {
   joints: boolean;
   bounds: boolean;
   follow: boolean;
+  /** Fixed bodies are transparent: what they enclose is seen. */
+  glass: boolean;
   speedMax: number;
+}
+
+/** What is marked and drawn besides the world. */
+export interface Beside {
+  /** Slots of bodies. */
+  marks: number[];
+  /** A world whose bodies are ghosts. */
+  second?: WorldView | undefined;
+  /** A line that is drawn: from where a body is held to the mouse. */
+  pull?: [Vec3, Vec3] | undefined;
+}
+export interface Picked {
+  id: BodyId;
+  /** In the world, m. */
+  point: Vec3;
 }
 
 /** The direction from which the camera looks at first. */
@@ -33,49 +54,67 @@ const viewFrom = new Vector3(1.25, 1.1, 2.3).normalize();
 const background = '#14181e';
 /** A body this far from the scene's origin, m, is followed to a new origin: floats stay fine near the camera. */
 const originDistanceMax = 4096;
+/** So many bodies stand for all of a scene. */
+const hiddenBodiesMax = 40;
 
 export class Stage {
-  readonly bodies: Bodies;
-  readonly overlays: Overlays;
+  bodies!: Bodies;
+  overlays!: Overlays;
+  /** The second recording's bodies, where they differ. */
+  private ghosts!: Bodies;
   private readonly renderer: WebGLRenderer;
-  private readonly scene = new Scene();
-  private readonly camera: PerspectiveCamera;
+  private readonly camera = new PerspectiveCamera(40);
   private readonly controls: OrbitControls;
   private readonly light = new DirectionalLight('#fff4e0', 2.4);
-  private origin: Vec3;
-  private readonly radius: number;
+  private scene = new Scene();
+  private extent!: Extent;
+  private origin: Vec3 = [0, 0, 0];
+  private radius = 1;
   private stale = true;
 
-  /** Throws if the browser has no WebGL. */
-  constructor(
-    private readonly canvas: HTMLCanvasElement,
-    private readonly extent: Extent,
-  ) {
+  /** Throws if the browser has no WebGL. open() must follow. */
+  constructor(private readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true });
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.shadowMap.autoUpdate = false;
-    this.origin = extent.middle;
-    this.radius = extent.radius;
-    this.camera = new PerspectiveCamera(40, 1, this.radius / 200, this.radius * 400);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = true;
     this.controls.dampingFactor = 0.15;
+    this.light.castShadow = true;
+    this.light.shadow.mapSize.setScalar(2048);
+  }
+
+  /** Begins with an empty scene, and looks at where its bodies will be. */
+  open(extent: Extent): void {
+    release(this.scene);
+    this.extent = extent;
+    this.origin = extent.middle;
+    this.radius = extent.radius;
+    this.camera.near = this.radius / 200;
+    this.camera.far = this.radius * 400;
+    this.camera.updateProjectionMatrix();
     this.controls.minDistance = this.radius / 100;
     this.controls.maxDistance = this.radius * 100;
 
+    this.scene = new Scene();
     this.scene.background = new Color(background);
     this.scene.fog = new Fog(background, this.radius * 8, this.radius * 40);
     this.scene.add(new HemisphereLight('#e6eeff', '#5a544c', 1.5), this.light, this.light.target);
-    this.light.castShadow = true;
-    this.light.shadow.mapSize.setScalar(2048);
     this.light.shadow.normalBias = this.radius / 500;
-    this.bodies = new Bodies(this.radius * 100, 10 ** Math.floor(Math.log10(this.radius / 2)));
+    const gridStep = 10 ** Math.floor(Math.log10(this.radius / 2));
+    this.bodies = new Bodies(this.radius * 100, gridStep);
+    this.ghosts = new Bodies(this.radius * 100, gridStep, this.bodies);
     this.overlays = new Overlays(this.radius / 5);
-    this.scene.add(this.bodies.group, this.overlays.group);
+    this.scene.add(this.bodies.group, this.ghosts.group, this.overlays.group);
     this.resetCamera();
   }
 
+  /** Looks at where the bodies are now. */
+  refit(extent: Extent): void {
+    this.extent = extent;
+    this.resetCamera();
+  }
   /** Looks at the middle again. The next update() draws from there. */
   resetCamera(): void {
     this.origin = this.extent.middle;
@@ -99,14 +138,18 @@ export class Stage {
       const across = Math.max((Math.abs(at.dot(right)) + size) / aspect, Math.abs(at.dot(above)) + size);
       return across / tangent + at.dot(viewFrom);
     });
-    return Math.max(1.08 * Math.max(...needed, this.radius), this.controls.minDistance);
+    return Math.max(1.08 * Math.max(...needed, this.extent.radius), this.controls.minDistance);
   }
 
   /** Takes over the world's present tick. */
-  update(world: WorldView, look: Look, selected: BodyId | undefined): void {
-    this.bodies.update(world, this.origin, look.colourBy, look.speedMax, selected);
+  update(world: WorldView, look: Look, selected: BodyId | undefined, { marks, second, pull }: Beside): void {
+    this.bodies.glass = look.glass;
+    this.bodies.update(world, this.origin, look.colourBy, look.speedMax);
     if (look.follow && selected) this.follow(selected, world, look);
-    this.overlays.update(world, this.origin, look);
+    if (second === undefined) this.ghosts.clear();
+    else this.ghosts.update(second, this.origin, look.colourBy, look.speedMax);
+    this.bodies.rim(selected, marks);
+    this.overlays.update(world, this.origin, look, pull);
     this.stale = true;
   }
   private follow(body: BodyId, world: WorldView, look: Look): void {
@@ -119,7 +162,7 @@ export class Stage {
     const moved = new Vector3(...at.toArray().map(Math.round));
     this.camera.position.sub(moved);
     this.controls.target.sub(moved);
-    this.bodies.update(world, this.origin, look.colourBy, look.speedMax, body);
+    this.bodies.update(world, this.origin, look.colourBy, look.speedMax);
   }
 
   /** Draws, if anything has changed since the last time. */
@@ -153,11 +196,61 @@ export class Stage {
     return true;
   }
 
-  /** The body at a pixel of the canvas. */
-  pick(x: number, y: number): BodyId | undefined {
+  /** How many bodies of the second world are drawn. */
+  get ghostsDrawn(): number {
+    return this.ghosts.drawn;
+  }
+  /** Whether fixed bodies hide most of the bodies that move. */
+  get hidden(): boolean {
+    const moving = this.bodies.rows.filter((row) => row.type !== 'fixed').slice(0, hiddenBodiesMax);
+    const hidden = moving.filter(({ id }) => {
+      const to = this.bodies.positionOf(id.slot)!.sub(this.camera.position).normalize();
+      const first = this.bodies.pick(new Raycaster(this.camera.position, to));
+      return first !== undefined && this.bodies.isFixed(first.id.slot);
+    });
+    return hidden.length > moving.length / 2;
+  }
+
+  /** The body at a pixel of the canvas, and the point of it that is seen there. */
+  pick(x: number, y: number): Picked | undefined {
+    const hit = this.bodies.pick(this.ray(x, y));
+    return hit && { id: hit.id, point: this.toWorld(hit.point) };
+  }
+  /** The point at a pixel that is as far in front of the camera as `point`. */
+  across(x: number, y: number, point: Vec3): Vec3 {
+    const front = this.camera.getWorldDirection(new Vector3());
+    const plane = new Plane().setFromNormalAndCoplanarPoint(front, this.fromWorld(point));
+    const at = this.ray(x, y).ray.intersectPlane(plane, new Vector3());
+    return at === null ? point : this.toWorld(at);
+  }
+  /** Whether the mouse turns the camera. */
+  set turns(on: boolean) {
+    this.controls.enabled = on;
+  }
+
+  private ray(x: number, y: number): Raycaster {
     const ray = new Raycaster();
     const at = new Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight);
     ray.setFromCamera(at, this.camera);
-    return this.bodies.pick(ray);
+    return ray;
   }
+  private toWorld(at: Vector3): Vec3 {
+    return at.toArray().map((x, i) => x + this.origin[i]!) as Vec3;
+  }
+  private fromWorld(at: Vec3): Vector3 {
+    return new Vector3(...at.map((x, i) => x - this.origin[i]!));
+  }
+}
+
+/** Frees what an old scene holds on the graphics card. */
+function release(scene: Scene): void {
+  scene.traverse((object) => {
+    const { geometry, material } = object as Partial<Mesh>;
+    geometry?.dispose();
+    for (const each of material === undefined ? [] : [material].flat()) {
+      (each as { map?: Texture | null }).map?.dispose();
+      each.dispose();
+    }
+    if (object instanceof InstancedMesh) object.dispose();
+  });
 }

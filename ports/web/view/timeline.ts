@@ -56,7 +56,8 @@ export class Timeline {
     return this.playback.first + Math.round(share * this.span);
   }
 
-  draw(): void {
+  /** `mark`: a tick that is marked. */
+  draw(mark?: number): void {
     const ratio = Math.min(window.devicePixelRatio, 2);
     const { clientWidth, clientHeight } = this.canvas;
     if (
@@ -72,6 +73,10 @@ export class Timeline {
     to.font = '11px system-ui, sans-serif';
     to.textBaseline = 'middle';
     this.drawTrack();
+    if (mark !== undefined) {
+      to.fillStyle = colours.bad;
+      to.fillRect(this.x(mark) - 1, 0, 2, clientHeight);
+    }
     seriesDefs.forEach((_, i) => this.drawSeries(i, trackHeight + rowGap + i * (rowHeight + rowGap)));
     this.drawHead(clientHeight);
   }

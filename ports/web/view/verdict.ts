@@ -47,26 +47,31 @@ function problemText(problem: ReplayProblem): { text: string; detail: string } {
   return { text: `damaged at tick ${problem.tick}`, detail: problem.text };
 }
 
-/** Why nothing of a recording can be shown. */
-export function refusal(problem: ReplayProblem, header: RecordingInfo | undefined, simulationVersion: number): string {
+/** Why nothing of a recording can be shown. `it`: what the sentence calls it. */
+export function refusal(
+  problem: ReplayProblem,
+  header: RecordingInfo | undefined,
+  simulationVersion: number,
+  it = 'This recording',
+): string {
   switch (problem.status) {
     case 'simulation_differs':
       return (
-        `This recording is of simulation version ${header?.simulationVersion ?? 'unknown'}, and this page replays version ` +
+        `${it} is of simulation version ${header?.simulationVersion ?? 'unknown'}, and this page replays version ` +
         `${simulationVersion}. Make the page with the detent tool of that version.`
       );
     case 'config_differs':
-      return `This recording is of the configuration ${header?.config ?? 'unknown'}, which this page does not replay.`;
+      return `${it} is of the configuration ${header?.config ?? 'unknown'}, which this page does not replay.`;
     case 'not_detent':
-      return 'These bytes are not a recording of Detent.';
+      return `${it} is not a recording of Detent.`;
     case 'format_unknown':
-      return `This recording has format version ${header?.formatVersion ?? 'unknown'}, which this page does not read.`;
+      return `${it} has format version ${header?.formatVersion ?? 'unknown'}, which this page does not read.`;
     case 'asset_missing':
     case 'asset_mismatch':
-      return 'This recording needs cooked files that this page does not have. Name them with: detent view --asset FILE';
+      return `${it} needs cooked files that this page does not have. Name them with: detent view --asset FILE`;
     case 'buffer_too_small':
       return 'There is not enough memory for the world of this recording.';
     default:
-      return `This recording is damaged: ${problem.text}.`;
+      return `${it} is damaged: ${problem.text}.`;
   }
 }

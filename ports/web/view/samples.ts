@@ -1,0 +1,47 @@
+/** The list of scenes, at the left of a page that has several. */
+import { element } from './elements.js';
+import type { EmbeddedScene } from './embedded.js';
+
+/** An address may be anything. */
+function nameIn(hash: string): string {
+  try {
+    return decodeURIComponent(hash.slice(1));
+  } catch {
+    return '';
+  }
+}
+
+/** Calls `choose` with the scene that the reader chooses; with the first one, or that of the address, at once. */
+export function bindSamples(scenes: EmbeddedScene[], choose: (scene: EmbeddedScene) => void): void {
+  document.body.classList.add('samples');
+  const rows = scenes.map((scene) => {
+    const row = document.createElement('button');
+    row.textContent = scene.name;
+    row.title = scene.text;
+    row.onclick = () => {
+      location.hash = encodeURIComponent(scene.name);
+    };
+    return row;
+  });
+  element('list').replaceChildren(...rows);
+
+  const show = () => {
+    const name = nameIn(location.hash);
+    const index = Math.max(0, scenes.findIndex((scene) => scene.name === name));
+    rows.forEach((row, i) => row.classList.toggle('on', i === index));
+    rows[index]!.scrollIntoView({ block: 'nearest' });
+    choose(scenes[index]!);
+  };
+  window.addEventListener('hashchange', show);
+
+  const search = element<HTMLInputElement>('search');
+  search.oninput = () => {
+    const words = search.value.toLowerCase().split(/\s+/);
+    scenes.forEach(({ name, text }, i) => {
+      const all = `${name} ${text}`.toLowerCase();
+      rows[i]!.hidden = !words.every((word) => all.includes(word));
+    });
+    element('none').hidden = rows.some((row) => !row.hidden);
+  };
+  show();
+}
