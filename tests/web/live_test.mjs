@@ -199,6 +199,50 @@ test('the camera turns where no body is held', options, async () => {
   await page.close();
 });
 
+test('the camera turns again after a restart has taken the body from the mouse', options, async () => {
+  const { address } = pageOf('restarted', { bodies: [ground, crate] });
+  const page = await open(address);
+  await passes(page, 5);
+  const [x, y] = await middle(page);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x, y - 20, { steps: 3 });
+  await page.waitForFunction(() => document.body.dataset.held === '2');
+  await page.keyboard.press('Home');
+  await page.waitForFunction(() => document.body.dataset.held === '');
+  await page.mouse.up();
+  await page.keyboard.press(' ');
+  await drawn(page);
+  const still = (await picture(page)).png;
+  await page.mouse.move(x + 300, y - 150);
+  await page.mouse.down();
+  await page.mouse.move(x + 380, y - 130, { steps: 3 });
+  await page.mouse.up();
+  assert.notDeepEqual((await picture(page)).png, still);
+  await page.close();
+});
+
+test('a recording that is saved after a call and before the next step verifies', options, async () => {
+  const { address } = pageOf('between', { ticks: 100, bodies: [ground, crate] });
+  const page = await open(address);
+  await paused(page, 'between');
+  await digestAt(page, 60);
+  await slide(page, 'gravity', 5);
+  await drawn(page);
+  await saved(page, 'between');
+  await page.close();
+});
+
+test('two scenes of one name are both in the list', options, async () => {
+  const { file, address } = pageOf('twice', { bodies: [ground, crate] });
+  run('view', file, file, '-o', fileURLToPath(address));
+  const page = await open(address);
+  assert.deepEqual(await page.locator('#list button').allTextContents(), ['twice', 'twice (2)']);
+  await page.click('#list button:nth-child(2)');
+  await page.waitForSelector('#list button:nth-child(2).on');
+  await page.close();
+});
+
 test('sliders change gravity, substeps and friction by recorded calls', options, async () => {
   const slope = { name: 'slope', type: 'fixed', rotation: { axis: [0, 0, 1], degrees: 20 }, shape: { type: 'half_space' } };
   const at = { ...crate, position: [0, 0.55, 0], rotation: { axis: [0, 0, 1], degrees: 20 } };
@@ -268,6 +312,8 @@ test('a page with a damaged scene says so', options, async () => {
   const page = await open(address);
   await page.waitForSelector('#notice:not([hidden])');
   assert.match(await page.textContent('#notice'), /^This scene cannot be shown: corrupt/);
+  await page.mouse.click(...(await middle(page)));
+  await page.keyboard.press('r');
   assert.deepEqual(page.faults, []);
   await page.close();
 });

@@ -4,7 +4,7 @@ import { execFileSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { Browser, missing, picture, shows, tool, verdictOf } from './browser.mjs';
+import { Browser, drawn, missing, picture, shows, tool, verdictOf } from './browser.mjs';
 import { recording } from './support.mjs';
 
 /** The recorder of tests/tool/first_difference, which introduces faults. */
@@ -246,6 +246,14 @@ test('what cannot be compared is refused in one sentence', options, async () => 
       (source) => new RegExp(source).test(document.querySelector('#notice').textContent),
       sentence.source,
     );
+  }
+  // The same file once more is told once more.
+  const text = new TextEncoder().encode('x'.repeat(100));
+  for (let i = 0; i < 2; ++i) {
+    await drop(page, 'text.rec', text);
+    await pairVerdict(page, 'not compared');
+    await drawn(page);
+    assert.match(await noticeOf(page), /^text.rec is not a recording of Detent.$/);
   }
   await drop(page, 'flipped.rec', flipped);
   await page.waitForFunction(() =>

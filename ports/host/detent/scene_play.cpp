@@ -85,6 +85,7 @@ class Recording {
  private:
   bool write(const uint8_t* bytes, uint32_t count) {
     if (request_.recorded == nullptr) return output_->write(bytes, count);
+    if (request_.recorded->size() + count > k_whole_file_bytes_max) return false;
     request_.recorded->insert(request_.recorded->end(), bytes, bytes + count);
     return true;
   }
@@ -108,7 +109,9 @@ void play(const RunRequest& request, SceneReading& reading, OwnedWorld& owned, R
   if (status == Status::ok) step_through(request, ticks, recorder, player, outcome, print, progress);
   status = recorder.end();
   if (reading.problems.empty() && (status != Status::ok || !recording.close())) {
-    reading.problem({}, with_reason(request.recording + " cannot be written"));
+    const std::string limit = std::to_string(k_whole_file_bytes_max);
+    reading.problem({}, request.recorded != nullptr ? "its recording has more than " + limit + " bytes"
+                                                    : with_reason(request.recording + " cannot be written"));
   }
   if (request.prints.bodies) player.print_bodies(owned.world, outcome.ticks);
   outcome.calls = player.calls();

@@ -14,6 +14,9 @@ export interface Extent {
   reached: { offset: Vec3; size: number }[];
 }
 
+/** Of a world without bodies. */
+export const emptyExtent: Extent = { middle: [0, 0, 0], radius: 5, reached: [] };
+
 /** How many times the median distance is far. */
 const outlierFactor = 3;
 /** Of a large world some bodies stand for all. */
@@ -59,7 +62,7 @@ function placesOf(world: WorldView): Place[] {
 
 /** A body that is much farther away than most is left out: it would make all others small. */
 function extentOf(places: Place[]): Extent {
-  if (places.length === 0) return { middle: [0, 0, 0], radius: 5, reached: [] };
+  if (places.length === 0) return emptyExtent;
   const axes = [0, 1, 2] as const;
   const most = axes.map((axis) => median(places.map(({ position }) => position[axis])));
   const distance = ({ position, size }: Place) => Math.hypot(...position.map((x, axis) => x - most[axis]!)) + size;

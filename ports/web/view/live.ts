@@ -105,7 +105,8 @@ export class LiveViewer {
   }
   private close(): void {
     this.world?.destroy();
-    this.world = this.last = this.taken = this.grab = this.differs = undefined;
+    this.letGo();
+    this.world = this.last = this.differs = undefined;
     this.touched = false;
     this.agreed = 0;
   }
@@ -134,7 +135,7 @@ export class LiveViewer {
   private step(): void {
     const { world } = this;
     if (world === undefined) return;
-    if (this.taken !== undefined && !world.has(this.taken.grab.id)) this.taken = this.grab = undefined;
+    if (this.taken !== undefined && !world.has(this.taken.grab.id)) this.letGo();
     if (this.grab !== undefined) this.change(() => this.grab!.pull(this.tickSeconds));
     this.last = world.advance();
     const { compared, agrees, report } = this.last;
@@ -209,8 +210,14 @@ export class LiveViewer {
   }
   private save(): void {
     if (this.world === undefined || this.scene === undefined) return;
+    let recording: Uint8Array;
+    try {
+      recording = this.world.recording();
+    } catch (error) {
+      return notice(`The recording cannot be saved: ${error instanceof Error ? error.message : String(error)}`);
+    }
     const link = document.createElement('a');
-    link.href = URL.createObjectURL(new Blob([this.world.recording() as BlobPart]));
+    link.href = URL.createObjectURL(new Blob([recording as BlobPart]));
     link.download = `${this.scene.name.replaceAll(' ', '_')}.rec`;
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 60000);
@@ -259,12 +266,6 @@ export class LiveViewer {
     const canvas = element('stage');
     const { stage } = this.scenery;
     if (stage === undefined) return;
-    const letGo = () => {
-      if (this.taken === undefined) return;
-      this.taken = this.grab = undefined;
-      stage.turns = true;
-      this.scenery.stale = true;
-    };
     // Before the camera's own listener.
     canvas.addEventListener(
       'pointerdown',
@@ -287,6 +288,14 @@ export class LiveViewer {
       taken.grab.target = stage.across(event.offsetX, event.offsetY, taken.grab.target);
       this.scenery.stale = true;
     });
-    for (const name of ['pointerup', 'pointercancel', 'lostpointercapture']) canvas.addEventListener(name, letGo);
+    for (const name of ['pointerup', 'pointercancel', 'lostpointercapture'])
+      canvas.addEventListener(name, () => this.letGo());
+  }
+  /** Lets the held body go, and the mouse turn the camera again. */
+  private letGo(): void {
+    if (this.taken === undefined) return;
+    this.taken = this.grab = undefined;
+    this.scenery.stage!.turns = true;
+    this.scenery.stale = true;
   }
 }

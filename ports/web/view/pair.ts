@@ -13,6 +13,8 @@ export class Pair {
   private comparison: Comparison | undefined;
   /** Why there is no second recording to play. */
   private refused = '';
+  /** Of the comparison that is still to be made. */
+  private timer: number | undefined;
 
   constructor(
     detent: Detent,
@@ -38,7 +40,7 @@ export class Pair {
       return;
     }
     // After the next frame: this takes as long as replaying both up to the difference.
-    setTimeout(() => this.compare(module, assets), 30);
+    this.timer = window.setTimeout(() => this.compare(module, assets), 30);
   }
   private compare(module: Module, assets: Uint8Array[]): void {
     try {
@@ -48,6 +50,7 @@ export class Pair {
     }
   }
   close(): void {
+    window.clearTimeout(this.timer);
     this.playback?.close();
   }
 

@@ -11,23 +11,31 @@ function nameIn(hash: string): string {
   }
 }
 
+/** The names of the scenes; the second one of a name is "name (2)". */
+function namesOf(scenes: EmbeddedScene[]): string[] {
+  return scenes.map(({ name }, i) => {
+    const earlier = scenes.slice(0, i).filter((each) => each.name === name).length;
+    return earlier === 0 ? name : `${name} (${earlier + 1})`;
+  });
+}
+
 /** Calls `choose` with the scene that the reader chooses; with the first one, or that of the address, at once. */
 export function bindSamples(scenes: EmbeddedScene[], choose: (scene: EmbeddedScene) => void): void {
   document.body.classList.add('samples');
-  const rows = scenes.map((scene) => {
+  const names = namesOf(scenes);
+  const rows = scenes.map((scene, i) => {
     const row = document.createElement('button');
-    row.textContent = scene.name;
+    row.textContent = names[i]!;
     row.title = scene.text;
     row.onclick = () => {
-      location.hash = encodeURIComponent(scene.name);
+      location.hash = encodeURIComponent(names[i]!);
     };
     return row;
   });
   element('list').replaceChildren(...rows);
 
   const show = () => {
-    const name = nameIn(location.hash);
-    const index = Math.max(0, scenes.findIndex((scene) => scene.name === name));
+    const index = Math.max(0, names.indexOf(nameIn(location.hash)));
     rows.forEach((row, i) => row.classList.toggle('on', i === index));
     rows[index]!.scrollIntoView({ block: 'nearest' });
     choose(scenes[index]!);

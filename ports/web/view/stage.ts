@@ -20,7 +20,7 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { BodyId, Vec3, WorldView } from '../src/index.js';
 import { Bodies } from './bodies.js';
 import { type ColourBy } from './colours.js';
-import { type Extent } from './extent.js';
+import { emptyExtent, type Extent } from './extent.js';
 import { Overlays } from './overlays.js';
 
 export interface Look {
@@ -72,7 +72,7 @@ export class Stage {
   private radius = 1;
   private stale = true;
 
-  /** Throws if the browser has no WebGL. open() must follow. */
+  /** Throws if the browser has no WebGL. */
   constructor(private readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true });
     this.renderer.shadowMap.enabled = true;
@@ -83,6 +83,7 @@ export class Stage {
     this.controls.dampingFactor = 0.15;
     this.light.castShadow = true;
     this.light.shadow.mapSize.setScalar(2048);
+    this.open(emptyExtent);
   }
 
   /** Begins with an empty scene, and looks at where its bodies will be. */

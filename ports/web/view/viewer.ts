@@ -41,6 +41,7 @@ export class Viewer {
     this.pair = pair;
     this.setPlaying(false);
     notice('');
+    element('verdict').textContent = ''; // or the same verdict as before would not be told again
     this.scenery.stale = true;
   }
 
