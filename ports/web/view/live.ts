@@ -145,12 +145,12 @@ export class LiveViewer {
     }
     this.scenery.stale = true;
   }
-  /** Makes calls of the reader's. What the library refuses is told, and changes nothing. */
+  /** Makes calls of the reader's. A refused call is told; the calls before it have changed the world. */
   private change(call: (world: LiveWorld) => void): void {
     if (this.world === undefined) return;
+    this.touched = true;
     try {
       call(this.world);
-      this.touched = true;
     } catch (error) {
       notice(`Refused: ${error instanceof Error ? error.message : String(error)}`);
     }

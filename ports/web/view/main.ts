@@ -48,8 +48,12 @@ function showLive(module: Module, scenes: EmbeddedScene[]): void {
   let chosen: EmbeddedScene | undefined;
   const choose = async (scene: EmbeddedScene) => {
     chosen = scene;
-    const [recording, assets] = await Promise.all([scene.recording(), scene.assets()]);
-    if (chosen === scene) viewer.open({ name: scene.name, text: scene.text, recording, assets });
+    try {
+      const [recording, assets] = await Promise.all([scene.recording(), scene.assets()]);
+      if (chosen === scene) viewer.open({ name: scene.name, text: scene.text, recording, assets });
+    } catch (error) {
+      refuse(`This scene cannot be read from the page: ${String(error)}`);
+    }
   };
   if (scenes.length === 1) void choose(scenes[0]!);
   else bindSamples(scenes, (scene) => void choose(scene));
