@@ -2,7 +2,8 @@
 #include <detent/config.h>
 #include <string.h>
 
-/// Conversion of canonical bytes, which are little-endian. No other file tests the machine's byte order.
+/// Comparison of bytes, and conversion of canonical bytes, which are little-endian. No other file tests the machine's
+/// byte order.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -13,6 +14,27 @@ inline uint64_t load_u64(const uint8_t* bytes) {
   uint64_t value;
   memcpy(&value, bytes, sizeof value);
   return k_big_endian ? __builtin_bswap64(value) : value;
+}
+
+/// Whether the `count` bytes at `a` and `b` are equal. It is not memcmp, whose result clang compares with 0 by a call
+/// of bcmp, which bare targets lack.
+inline bool have_same_bytes(const void* a, const void* b, uint32_t count) {
+  const auto* bytes_a = static_cast<const uint8_t*>(a);
+  const auto* bytes_b = static_cast<const uint8_t*>(b);
+  uint32_t i = 0;
+  for (; i + sizeof(uint64_t) <= count; i += sizeof(uint64_t)) {
+    if (load_u64(bytes_a + i) != load_u64(bytes_b + i)) return false;
+  }
+  for (; i < count; ++i) {
+    if (bytes_a[i] != bytes_b[i]) return false;
+  }
+  return true;
+}
+
+/// Whether two objects have the same bytes.
+template <class T>
+bool have_same_bytes(const T& a, const T& b) {
+  return have_same_bytes(&a, &b, sizeof(T));
 }
 
 /// Reverses each of the `count` words of `width` bytes (1, 2, 4 or 8) at `bytes`.

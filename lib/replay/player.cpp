@@ -2,6 +2,7 @@
 #include <detent/recording.h>
 #include <string.h>
 
+#include "base/bytes.h"
 #include "base/crc.h"
 #include "replay/command.h"
 #include "replay/format.h"
@@ -42,7 +43,7 @@ Status Player::open() {
   // The length of the header depends on the version, so the version is checked before the checksum.
   constexpr uint32_t k_start_bytes = k_magic_bytes + k_version_bytes;
   if (read(buffer_, k_magic_bytes, "magic") != Status::ok) return error_.status;
-  if (memcmp(buffer_, k_recording_magic, k_magic_bytes) != 0) return fail(Status::not_detent, 0, "magic");
+  if (!have_same_bytes(buffer_, k_recording_magic, k_magic_bytes)) return fail(Status::not_detent, 0, "magic");
   if (read(buffer_ + k_magic_bytes, k_version_bytes, "format version") != Status::ok) return error_.status;
   Reader version_reader{buffer_ + k_magic_bytes, k_version_bytes};
   visit_word(version_reader, "format version", info_.format_version);

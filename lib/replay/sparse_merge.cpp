@@ -1,5 +1,6 @@
 #include <string.h>
 
+#include "base/bytes.h"
 #include "broad_phase/pair_key.h"
 #include "joint/joint.h"
 #include "motion/activity.h"
@@ -16,7 +17,7 @@ namespace {
 
 template <class T>
 bool are_same(Span<const T> a, Span<const T> b, uint32_t index) {
-  return memcmp(&a[index], &b[index], sizeof(T)) == 0;
+  return have_same_bytes(a[index], b[index]);
 }
 
 uint32_t greater_count(uint32_t a, uint32_t b) { return a < b ? b : a; }
@@ -157,9 +158,8 @@ bool SparseTick::is_recorded(const StateView<uint8_t>& block) const {
   for (uint32_t i = 0; same && i < after.world.contact_count; ++i) {
     const ContactState& contact = after.contacts[i];
     if (!owns_contact(contact.body_a, contact.body_b)) continue;
-    same = found < block.world.contact_count && memcmp(&contact, &block.contacts[found], sizeof contact) == 0 &&
-           (block.manifolds.count == 0 ||
-            memcmp(&after.manifolds[i], &block.manifolds[found], sizeof(ManifoldState)) == 0);
+    same = found < block.world.contact_count && have_same_bytes(contact, block.contacts[found]) &&
+           (block.manifolds.count == 0 || have_same_bytes(after.manifolds[i], block.manifolds[found]));
     ++found;
   }
   return same && found == block.world.contact_count;

@@ -1,5 +1,6 @@
 #include <string.h>
 
+#include "base/bytes.h"
 #include "broad_phase/pair_key.h"
 #include "motion/predict.h"
 #include "replay/sparse_rollback.h"
@@ -10,11 +11,6 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
-
-template <class T>
-bool is_same(const T& a, const T& b) {
-  return memcmp(&a, &b, sizeof(T)) == 0;
-}
 
 /// Whether two worlds have the same settings.
 bool has_same_settings(const WorldState& a, const WorldState& b) {
@@ -29,7 +25,7 @@ bool has_same_settings(const WorldState& a, const WorldState& b) {
   other.sensor_count = a.sensor_count;
   other.sensed_count = a.sensed_count;
   other.idle = a.idle;
-  return is_same(a, other);
+  return have_same_bytes(a, other);
 }
 
 /// Visits the elements of two sorted lists: those with the same key together, the others alone. `visit(i, k)`: an index
@@ -54,12 +50,13 @@ int order_of(T a, T b) {
 bool SparseTick::find_differing() {
   if (!has_same_settings(before.world, now.world)) return false;
   if (before.assets.count != 0 &&
-      memcmp(before.assets.data, now.assets.data, before.assets.count * sizeof(AssetState)) != 0)
+      !have_same_bytes(before.assets.data, now.assets.data, before.assets.count * sizeof(AssetState)))
     return false;
   for (uint32_t slot = 0; slot < used; ++slot) {
-    if (!is_same(before.poses[slot], now.poses[slot]) || !is_same(before.motions[slot], now.motions[slot]) ||
-        !is_same(before.properties[slot], now.properties[slot]) ||
-        !is_same(before.activities[slot], now.activities[slot]))
+    if (!have_same_bytes(before.poses[slot], now.poses[slot]) ||
+        !have_same_bytes(before.motions[slot], now.motions[slot]) ||
+        !have_same_bytes(before.properties[slot], now.properties[slot]) ||
+        !have_same_bytes(before.activities[slot], now.activities[slot]))
       differs.set(slot);
   }
   const auto differ = [&](uint32_t slot) {
@@ -76,15 +73,15 @@ bool SparseTick::find_differing() {
       },
       [&](uint32_t i, uint32_t k) {
         const bool both = i < old_count && k < new_count;
-        if (both && is_same(old_contacts[i], new_contacts[k]) &&
-            (now.manifolds.count == 0 || is_same(before.manifolds[i], now.manifolds[k])))
+        if (both && have_same_bytes(old_contacts[i], new_contacts[k]) &&
+            (now.manifolds.count == 0 || have_same_bytes(before.manifolds[i], now.manifolds[k])))
           return;
         const ContactState& contact = i < old_count ? old_contacts[i] : new_contacts[k];
         differ(contact.body_a);
         differ(contact.body_b);
       });
   for (uint32_t slot = 0; slot < before.world.joints_used || slot < now.world.joints_used; ++slot) {
-    if (is_same(before.joints[slot], now.joints[slot])) continue;
+    if (have_same_bytes(before.joints[slot], now.joints[slot])) continue;
     joints.set(slot);
     const auto differ_ends = [&](const JointState& joint) {
       if (joint.type == 0) return;

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/bytes.h"
 #include "base/float_environment.h"
 #include "motion/activity.h"
 #include "motion/predict.h"
@@ -29,7 +30,7 @@ bool is_same_state(const StateView<const uint8_t>& a, const StateView<const uint
   for (uint32_t i = 1; i < k_section_count; ++i) {
     const uint32_t offset = a.layout.*k_sections[i].offset;
     if (counts.of[i] != others.of[i] ||
-        memcmp(bytes_a + offset, bytes_b + offset, counts.of[i] * k_sections[i].element_bytes) != 0)
+        !have_same_bytes(bytes_a + offset, bytes_b + offset, counts.of[i] * k_sections[i].element_bytes))
       return false;
   }
   return true;
@@ -45,7 +46,7 @@ StepCacheView cache_in(World& world) {
 }
 
 bool are_equal_sets(BitSet a, BitSet b) {
-  return memcmp(a.words.data, b.words.data, a.words.count * sizeof(uint32_t)) == 0;
+  return have_same_bytes(a.words.data, b.words.data, a.words.count * sizeof(uint32_t));
 }
 
 bool can_move(const BodyProperties& properties) {

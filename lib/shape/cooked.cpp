@@ -1,5 +1,6 @@
 #include "shape/cooked.h"
 
+#include "base/bytes.h"
 #include "base/crc.h"
 
 namespace detent {
@@ -17,9 +18,7 @@ Status check_cooked(const Asset& asset, const uint8_t (&magic)[8], uint32_t vers
   if (reinterpret_cast<uintptr_t>(asset.bytes) % 8 != 0) return Status::buffer_misaligned;
   const uint8_t* const bytes = asset.bytes;
   const uint32_t magic_count = asset.byte_count < sizeof magic ? asset.byte_count : uint32_t{sizeof magic};
-  for (uint32_t i = 0; i < magic_count; ++i) {  // clang turns memcmp into bcmp, which bare targets lack
-    if (bytes[i] != magic[i]) return Status::not_detent;
-  }
+  if (!have_same_bytes(bytes, magic, magic_count)) return Status::not_detent;
   if (asset.byte_count < k_cooked_version_at + 4) return Status::truncated;
   if (cooked_u32(bytes + k_cooked_version_at) != version) return Status::format_unknown;
   if (asset.byte_count < header_bytes || asset.byte_count < cooked_u32(bytes + k_cooked_byte_count_at)) {
