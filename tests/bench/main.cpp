@@ -13,6 +13,7 @@
 #include "tests/bench/scaling/command.h"
 #include "tests/bench/terminal.h"
 #include "tests/bench/world/command.h"
+#include "tests/bench/worlds/command.h"
 #include "tests/common/queries/sets.h"
 
 namespace {
@@ -178,6 +179,8 @@ int main(int argc, char** argv) {
   CLI::App* rollback = add_rollback_command(app, rollback_options);
   ScalingOptions scaling_options;
   CLI::App* scaling = add_scaling_command(app, scaling_options);
+  WorldsOptions worlds_options;
+  CLI::App* worlds = add_worlds_command(app, worlds_options);
   MotionsOptions motions_options;
   CLI::App* motions = add_motions_command(app, motions_options);
   std::vector<std::string> names;
@@ -208,6 +211,7 @@ int main(int argc, char** argv) {
   if (world->parsed()) return run_world(world_options);
   if (rollback->parsed()) return run_rollback(rollback_options);
   if (scaling->parsed()) return run_scaling(scaling_options);
+  if (worlds->parsed()) return run_worlds(worlds_options);
   if (motions->parsed()) return run_motions(motions_options);
   if (list->parsed()) {
     for (const detent_queries::Set& set : detent_queries::all_sets()) printf("%-5s %s\n", set.name, set.text);

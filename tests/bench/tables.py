@@ -11,7 +11,7 @@ import re
 import sys
 from pathlib import Path
 
-PAGES = ["docs/bench/README.md", "docs/toi_methods.md"]
+PAGES = ["docs/bench/README.md", "docs/bench/worlds.md", "docs/toi_methods.md"]
 MARK = re.compile(r"<!-- tables\.py (\w+) -->\n\n(.*?\n)\n", re.DOTALL)
 
 BULLET_TURNING, BULLET_LINEAR = "btContinuousConvexCollision", "btSubsimplexConvexCast"
@@ -215,11 +215,49 @@ def growth(rows):
                  [line[True] + line[False][1:] for line in lines.values()])
 
 
-SOURCES = {"toi": Rows, "distance": Rows, "world": StepRows, "world-study": StepRows, "world-growth": StepRows}
+def named(row):
+    return f'{row["bodies"]}, `{row["config"]}`'
+
+
+def kilobytes(count):
+    return f"{count / 1e3:,.1f}" if count < 1e5 else f"{count / 1e3:,.0f}"
+
+
+def worlds_memory(rows):
+    return table(["bodies", "awake", "world, KB", "snapshot, KB", "difference, KB", "1,000 worlds, MB", "1,000 differences, MB"],
+                 [[named(row), f'{row["awake"]:.0f}'] + [kilobytes(row[key]) for key in ("world_bytes", "snapshot_bytes", "difference_bytes")] +
+                  [f'{row[key] / 1e3:.1f}' for key in ("world_bytes", "difference_bytes")] for row in rows])
+
+
+def worlds_start(rows):
+    return table(["bodies", "create, us", "60 ticks, us", "restore, us", "times as fast", "difference: write, restore, us", "tree from the root / by edges"],
+                 [[named(row), three(row["create_us"]), three(row["simulate_us"]), three(row["restore_us"]),
+                   f'{row["simulate_us"] / row["restore_us"]:,.0f}', f'{three(row["difference_us"])}, {three(row["undo_us"])}',
+                   f'{row["tree_from_root_us"] / row["tree_us"]:.2f}'] for row in rows])
+
+
+def worlds_steps(rows):
+    head = [f'{step["threads"]} thread{"s" if step["threads"] > 1 else ""}, {step["alive"]:,}' for step in rows[0]["steps"]]
+    return table(["bodies", "ticks"] + head,
+                 [[named(row), str(row["ticks"])] + [f'{step["ticks_per_cpu_second"]:,.0f}' for step in row["steps"]] for row in rows])
+
+
+def worlds_verify(rows):
+    jobs = [one["jobs"] for one in rows[0]["verify"]]
+    cell = lambda all: [f'{one["matches_per_cpu_second"]:.1f}' for one in all] or ["-"] * len(jobs)
+    ticks = lambda row: row["match_ticks"] * row["verify"][0]["matches_per_cpu_second"]
+    return table(["bodies", "ticks of a match", "recording, KB", "ticks", "worlds at 60 Hz"] + [f'{job} thread{"s" if job > 1 else ""}' for job in jobs] +
+                 [f'{job} process{"es" if job > 1 else ""}' for job in jobs],
+                 [[named(row), str(row["match_ticks"]), kilobytes(row["recording_bytes"]), f"{ticks(row):,.0f}", f"{ticks(row) / 60:,.0f}"] + cell(row["verify"]) + cell(row["tool"])
+                  for row in rows])
+
+
+SOURCES = {"worlds": lambda path: json.loads(path.read_text()), "toi": Rows, "distance": Rows, "world": StepRows, "world-study": StepRows, "world-growth": StepRows}
 TABLES = {make.__name__: (make, source) for make, source in
           [(toi, "toi"), (methods, "toi"), (methods_time, "toi"), (methods_wrong, "toi"), (methods_early, "toi"),
            (triangles, "toi"), (distance, "distance"), (world, "world"), (world_stages, "world"), (study, "world-study"),
-           (study_equal, "world-study"), (growth, "world-growth")]}
+           (study_equal, "world-study"), (growth, "world-growth"), (worlds_memory, "worlds"), (worlds_start, "worlds"),
+           (worlds_steps, "worlds"), (worlds_verify, "worlds")]}
 
 
 def main():
