@@ -1,5 +1,6 @@
 #include <detent/world.h>
 
+#include "lost.h"
 #include "tests/campaigns/zoo/opened_scene.h"
 #include "tests/common/support/stage_profile.h"
 
@@ -27,9 +28,7 @@ class DetentPlay : public detent_zoo::Play {
     StepFigures figures;
     figures.seconds = stopwatch.seconds();
     ++tick_;
-    figures.lost = uint64_t{report.lost.pairs} + report.lost.contacts + report.contacts.capped + report.saturations +
-                   report.ccd.bodies_stopped + report.lost.sensed + report.joints.undecided + report.ccd.undecided +
-                   report.lost.impacts;
+    figures.lost = count_lost(report);
     figures.substeps = report.substeps_max;
     figures.awake = report.awake;
     return figures;
