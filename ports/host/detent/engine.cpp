@@ -8,6 +8,7 @@
 #include "owned_world.h"
 #include "reading.h"
 #include "scene_play.h"
+#include "shrink_recording.h"
 #include "stream.h"
 
 #define DETENT_TOOL_TEXT_OF(name) #name
@@ -104,6 +105,7 @@ Engine engine() {
           diff,
           explain,
           trace,
+          shrink,
           play_scene,
           describe_scene,
           copied_scene_assets};

@@ -134,6 +134,8 @@ struct TraceRequest {
 };
 
 struct Difference;
+struct ShrinkRequest;
+struct Shrunk;
 
 /// A body's state: m, m/s, rad/s, world frame.
 struct BodyLine {
@@ -167,6 +169,8 @@ struct Engine {
   Difference (*explain)(const ReadRequest& request, uint64_t tick);
   /// Writes a recording of the same calls with traces of this machine's states.
   Outcome (*trace)(const TraceRequest& request, const Progress& progress);
+  /// Writes the smallest recording that still shows a fault (shrink.h).
+  Outcome (*shrink)(const ShrinkRequest& request, Shrunk& shrunk, const Progress& progress);
   /// Plays scene files (run.h).
   RunOutcome (*run)(const RunRequest& request, const std::function<void(const RunLine&)>& print,
                     const Progress& progress);

@@ -10,6 +10,7 @@
 #include "report.h"
 #include "run.h"
 #include "scene_words.h"
+#include "shrink.h"
 #include "stream.h"
 #include "text.h"
 #include "verification.h"
@@ -132,6 +133,24 @@ int run_view(ViewRequest& request) {
   }
   if (overwrites(request.output, request.paths) || overwrites(request.output, request.asset_paths)) return k_exit_usage;
   return write_view(request) ? k_exit_good : k_exit_bad;
+}
+
+int run_shrink(ShrinkCommand& command, const Report& report) {
+  ShrinkRequest& request = command.request;
+  if (const std::string misused = take_shrink_options(command); !misused.empty()) {
+    fprintf(stderr, "shrink: %s\n", misused.c_str());
+    return k_exit_usage;
+  }
+  for (const std::string& output : {request.output, command.page}) {
+    if (overwrites(output, {request.reading.path}) || overwrites(output, command.asset_paths)) return k_exit_usage;
+  }
+  if (command.page == request.output) {
+    fprintf(stderr, "%s: --page and --output are the same file\n", printable(command.page).c_str());
+    return k_exit_usage;
+  }
+  if (!read_assets(command.asset_paths, request.reading.assets)) return k_exit_bad;
+  command.json = report.json;
+  return shrink_file(command) ? k_exit_good : k_exit_bad;
 }
 
 int run_compress(const std::vector<std::string>& paths, const Report& report) {
@@ -329,6 +348,10 @@ int run_command(int argc, char** argv) {
   view->add_option("-o,--output", viewing.output, "The page to write; FILE.html if it is not given");
   add_assets(view, viewing.asset_paths);
 
+  ShrinkCommand shrinking;
+  CLI::App* shrink = add_shrink_command(app, shrinking);
+  add_assets(shrink, shrinking.asset_paths);
+
   CLI::App* info = app.add_subcommand(
       "info", "Print the contents of recordings, hulls, compounds, meshes and height fields, without replaying them");
   info->add_option("file", paths, "Recordings and cooked shapes")->required();
@@ -403,7 +426,8 @@ int run_command(int argc, char** argv) {
   run->add_flag("--schema", schema, "Print the JSON Schema of scenes, and nothing else");
   run->add_flag("--fields", fields, "Print the tables of docs/scene.md, and nothing else");
 
-  for (CLI::App* command : {record, verify, state, recover, compress, diff, trace, view, info, scenes, cook, run}) {
+  for (CLI::App* command :
+       {record, verify, state, recover, compress, diff, trace, view, shrink, info, scenes, cook, run}) {
     command->add_flag("--json", report.json, "Print one JSON object per file, each on one line");
   }
 
@@ -438,6 +462,7 @@ int run_command(int argc, char** argv) {
   if (trace->parsed()) return run_trace(tracing, trace_level, asset_paths, report);
   viewing.json = report.json;
   if (view->parsed()) return run_view(viewing);
+  if (shrink->parsed()) return run_shrink(shrinking, report);
   if (compress->parsed()) return run_compress(paths, report);
   if (info->parsed()) return run_info(paths, report);
   if (run->parsed() && (schema || fields)) {
