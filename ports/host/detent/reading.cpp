@@ -218,6 +218,12 @@ Outcome failed(const std::string& problem) {
   return outcome;
 }
 
+Outcome failed_to_open(const ReplayError& error, Input& input) {
+  Outcome outcome = failed(problem_text(error, input));
+  outcome.other_config = error.status == Status::config_differs;
+  return outcome;
+}
+
 Outcome verify(const ReadRequest& request, const Progress& progress) {
   Reading reading(request);
   if (reading.good()) reading.create_world();
@@ -282,11 +288,7 @@ Outcome trace(const TraceRequest& request, const Progress& progress) {
     if (input == nullptr) return failed(problem);
     uint8_t buffer[k_recording_buffer_bytes];
     Player player(source_of(*input), buffer, sizeof buffer);
-    if (player.open() != Status::ok) {
-      Outcome outcome = failed(problem_text(player.error(), *input));
-      outcome.other_config = player.error().status == Status::config_differs;
-      return outcome;
-    }
+    if (player.open() != Status::ok) return failed_to_open(player.error(), *input);
   }
   std::string problem;
   const std::unique_ptr<Output> output =

@@ -29,6 +29,8 @@ struct ReplayWorld {
 
 detent_tool::Header header_of(const RecordingInfo& info);
 detent_tool::Outcome failed(const std::string& problem);
+/// The outcome for a recording that Player::open() refuses with this error.
+detent_tool::Outcome failed_to_open(const ReplayError& error, detent_tool::Input& input);
 
 detent_tool::Outcome verify(const detent_tool::ReadRequest& request, const detent_tool::Progress& progress);
 detent_tool::Outcome info(const detent_tool::ReadRequest& request, const detent_tool::Progress& progress);

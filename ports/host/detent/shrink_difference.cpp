@@ -133,11 +133,7 @@ Outcome shrink_difference(const ShrinkRequest& request, const Recorded& recorded
   if (input == nullptr) return failed(problem);
   uint8_t buffer[k_recording_buffer_bytes];
   Player player(source_of(*input), buffer, sizeof buffer);
-  if (player.open() != Status::ok) {
-    Outcome outcome = failed(problem_text(player.error(), *input));
-    outcome.other_config = player.error().status == Status::config_differs;
-    return outcome;
-  }
+  if (player.open() != Status::ok) return failed_to_open(player.error(), *input);
   ReplayWorld replayed;
   if (replayed.create(player.info(), *input, request.reading.assets) != Status::ok)
     return failed("its world cannot be made: the file is too small for its seed snapshot, or memory is short");
