@@ -31,6 +31,22 @@ DETENT_TEST(state, every_bit_of_it_is_in_the_digest) {
   EXPECT_EQ(digest(lab.world), before);
 }
 
+DETENT_TEST(bytes, are_the_same_if_no_bit_of_them_differs) {
+  constexpr uint32_t k_count = 40;
+  uint8_t one[k_count], other[k_count + 1];
+  for (uint32_t start = 0; start < 2; ++start) {  // at any alignment
+    for (uint32_t count = 0; count <= k_count; ++count) {
+      for (uint32_t i = 0; i < k_count; ++i) other[start + i] = one[i] = static_cast<uint8_t>(37 * i);
+      EXPECT_TRUE(have_same_bytes(one, other + start, count));
+      for (uint32_t bit = 0; bit < 8 * k_count; ++bit) {
+        other[start + bit / 8] ^= static_cast<uint8_t>(1 << bit % 8);
+        EXPECT_EQ(have_same_bytes(one, other + start, count), bit / 8 >= count) << count << " bytes, bit " << bit;
+        other[start + bit / 8] ^= static_cast<uint8_t>(1 << bit % 8);
+      }
+    }
+  }
+}
+
 DETENT_TEST(state, no_bit_of_a_snapshot_can_be_flipped_into_a_crash_and_those_of_the_header_are_refused) {
   Lab lab = make_pile();
   const uint64_t before = digest(lab.world);
