@@ -1,3 +1,4 @@
+#include "base/cycle.h"
 #include "contact/collide_shapes.h"
 #include "contact/segments.h"
 #include "math/root.h"
@@ -184,7 +185,7 @@ __attribute__((noinline)) bool clip_to_edge(const BoxAndSegment& pair, const Box
   const Unit limit = pair.half_length;
   low = divide_clamped(-pair.half.v[edge] - centre, speed, limit);
   high = divide_clamped(pair.half.v[edge] - centre, speed, limit);
-  const int u = (edge + 1) % 3, v = (edge + 2) % 3;
+  const int u = next_of_three(edge), v = previous_of_three(edge);
   const Unit rate = contact.normal.v[u] * pair.direction.v[v] - contact.normal.v[v] * pair.direction.v[u];
   stay_beside(rate, scale_by_power(thickness, -5), contact.along, low, high);
   return low < high;
@@ -242,7 +243,7 @@ void collide_box_round(const PairFrame& frame, PairManifold& manifold) {
     contact = {axes_of(normal), -1, along};
     const Unit aside = scale_by_power(distance, k_upright_power);
     for (int axis = 0; axis < 3; ++axis) {
-      if (abs(excess.v[(axis + 1) % 3]) > aside || abs(excess.v[(axis + 2) % 3]) > aside) continue;
+      if (abs(excess.v[next_of_three(axis)]) > aside || abs(excess.v[previous_of_three(axis)]) > aside) continue;
       contact.set_face(axis);
     }
   } else {

@@ -1,3 +1,4 @@
+#include "base/cycle.h"
 #include "contact/collide_shapes.h"
 #include "contact/contact_clip.h"
 #include "contact/segments.h"
@@ -64,7 +65,7 @@ Unit sine_of(const AxisTable& t, int i, int j) {
 bool edge_separation(const AxisTable& t, int i, int j, Unit& separation) {
   const Unit sine = sine_of(t, i, j);
   if (sine < k_edge_sine_min) return false;
-  const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+  const int i1 = next_of_three(i), i2 = previous_of_three(i), j1 = next_of_three(j), j2 = previous_of_three(j);
   const Unit offset = abs(t.offset_a[i2] * t.cosine[i1][j] - t.offset_a[i1] * t.cosine[i2][j]);
   const Unit support_a = t.half_a.v[i1] * abs(t.cosine[i2][j]) + t.half_a.v[i2] * abs(t.cosine[i1][j]);
   const Unit support_b = t.half_b.v[j1] * abs(t.cosine[i][j2]) + t.half_b.v[j2] * abs(t.cosine[i][j1]);
@@ -237,12 +238,12 @@ __attribute__((noinline)) void collide_face(const PairShape& reference, const Pa
   const Vec3<Unit>& axis = reference.rotation.column[face];
   const bool flipped = dot(axis, between) < Unit(0.0);
   const Vec3<Unit> normal = flipped ? -axis : axis;
-  const Vec3<Unit>& axis_u = reference.rotation.column[(face + 1) % 3];
-  const Vec3<Unit>& axis_v = reference.rotation.column[(face + 2) % 3];
+  const Vec3<Unit>& axis_u = reference.rotation.column[next_of_three(face)];
+  const Vec3<Unit>& axis_v = reference.rotation.column[previous_of_three(face)];
   // A vertex barely beyond a side of the face is not clipped. Otherwise equal boxes that are stacked flush would change
   // features, and lose their impulses, at the slightest jitter.
-  const Unit slack = scale_by_power(min(half.v[(face + 1) % 3], half.v[(face + 2) % 3]), -6);
-  const Unit limit_u = half.v[(face + 1) % 3] + slack, limit_v = half.v[(face + 2) % 3] + slack;
+  const Unit slack = scale_by_power(min(half.v[next_of_three(face)], half.v[previous_of_three(face)]), -6);
+  const Unit limit_u = half.v[next_of_three(face)] + slack, limit_v = half.v[previous_of_three(face)] + slack;
 
   int opposed = 0;
   Unit opposition = -1.0;
@@ -256,8 +257,8 @@ __attribute__((noinline)) void collide_face(const PairShape& reference, const Pa
   const Vec3<Unit>& incident_axis = incident.rotation.column[opposed];
   const Unit side = -sign_of(dot(normal, incident_axis));
   const Vec3<Unit> middle = between + incident_axis * (other.v[opposed] * side);
-  const Vec3<Unit> first = incident.rotation.column[(opposed + 1) % 3] * other.v[(opposed + 1) % 3];
-  const Vec3<Unit> second = incident.rotation.column[(opposed + 2) % 3] * other.v[(opposed + 2) % 3];
+  const Vec3<Unit> first = incident.rotation.column[next_of_three(opposed)] * other.v[next_of_three(opposed)];
+  const Vec3<Unit> second = incident.rotation.column[previous_of_three(opposed)] * other.v[previous_of_three(opposed)];
   const Vec3<Unit> corner[4] = {middle + first + second, middle - first + second, middle - first - second,
                                 middle + first - second};
   FaceVertex polygon[k_face_vertices_max], clipped[k_face_vertices_max];
@@ -295,7 +296,7 @@ Segment support_edge(const PairShape& box, int edge, const Vec3<Unit>& direction
   Segment segment = {box.centre, box.rotation.column[edge], half.v[edge]};
   which = 4 * static_cast<uint32_t>(edge);
   for (int k = 1; k < 3; ++k) {
-    const int axis = (edge + k) % 3;
+    const int axis = k == 1 ? next_of_three(edge) : previous_of_three(edge);
     const Unit sign = sign_of(dot(direction, box.rotation.column[axis]));
     segment.centre = segment.centre + box.rotation.column[axis] * (half.v[axis] * sign);
     if (sign < Unit(0.0)) which += static_cast<uint32_t>(k);
@@ -315,7 +316,7 @@ __attribute__((noinline)) bool collide_leaning_face(const PairFrame& frame, cons
   Unit most = k_leaning;
   int face = -1;
   for (int i = 0; i < 6; ++i) {
-    const Unit along = abs(dot(normal, (i < 3 ? frame.a : frame.b).rotation.column[i % 3]));
+    const Unit along = abs(dot(normal, i < 3 ? frame.a.rotation.column[i] : frame.b.rotation.column[i - 3]));
     if (!(along > most)) continue;
     most = along;
     face = i;
@@ -327,7 +328,7 @@ __attribute__((noinline)) bool collide_leaning_face(const PairFrame& frame, cons
   const Unit along_face = is_a ? face_a_separation(table, face) : face_b_separation(table, face - 3);
   if (separation > preference || along_face < separation - scale_by_power(preference, 2)) return false;
   PairManifold found;
-  collide_face(is_a ? frame.a : frame.b, is_a ? frame.b : frame.a, face % 3, is_a, frame, found);
+  collide_face(is_a ? frame.a : frame.b, is_a ? frame.b : frame.a, is_a ? face : face - 3, is_a, frame, found);
   Unit deepest = 1.0;
   for (uint32_t i = 0; i < found.count; ++i) deepest = min(deepest, found.point[i].separation);
   const bool sound = found.count > 1 && !(deepest < separation - preference) &&

@@ -1,5 +1,6 @@
 #include "contact/collide_half_space.h"
 
+#include "base/cycle.h"
 #include "contact/contact_arm.h"
 #include "math/arithmetic.h"
 #include "math/wide.h"
@@ -66,8 +67,8 @@ void collide_box(const BodyProperties& properties, const Matrix3& rotation, Coll
   const bool upper = dot(collector.normal, rotation.column[face]) < Unit(0.0);
   const Vec3<Unit> outward = rotation.column[face] * half[face];
   const Vec3<Unit> middle = upper ? outward : -outward;
-  const Vec3<Unit> u = rotation.column[(face + 1) % 3] * half[(face + 1) % 3];
-  const Vec3<Unit> v = rotation.column[(face + 2) % 3] * half[(face + 2) % 3];
+  const Vec3<Unit> u = rotation.column[next_of_three(face)] * half[next_of_three(face)];
+  const Vec3<Unit> v = rotation.column[previous_of_three(face)] * half[previous_of_three(face)];
   const uint32_t base = 1 + 4 * (2 * static_cast<uint32_t>(face) + (upper ? 1u : 0u));
   collector.add(middle + u + v, base);
   collector.add(middle - u + v, base + 1);

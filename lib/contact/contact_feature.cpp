@@ -1,6 +1,7 @@
 #include "contact/contact_feature.h"
 
 #include "base/bit_set.h"
+#include "base/cycle.h"
 #include "math/root.h"
 
 namespace detent {
@@ -244,7 +245,7 @@ __attribute__((noinline)) void hull_face(const Placed& placed, const Vec32& d, i
 void box_face(const Placed& placed, const Vec32& d, Feature& face) {
   const int64_t part[3] = {magnitude_32(d.x), magnitude_32(d.y), magnitude_32(d.z)};
   const int x = part[1] > part[0] ? (part[2] > part[1] ? 2 : 1) : part[2] > part[0] ? 2 : 0;
-  const int y = (x + 1) % 3, z = (x + 2) % 3;
+  const int y = next_of_three(x), z = previous_of_three(x);
   const int32_t at[3] = {d.x, d.y, d.z};
   const bool back = at[x] < 0;
   for (int i = 0; i < 4; ++i) {
@@ -393,7 +394,7 @@ uint32_t edge_index(const Placed& placed, uint32_t vertex_a, uint32_t vertex_b) 
     case ShapeType::box: {
       const uint32_t across = vertex_a ^ vertex_b, axis = across == 1 ? 0 : across == 2 ? 1 : 2;
       const uint32_t both = vertex_a & vertex_b;
-      return 4 * axis + (both >> ((axis + 1) % 3) & 1) + 2 * (both >> ((axis + 2) % 3) & 1);
+      return 4 * axis + (both >> (next_of_three(axis)) & 1) + 2 * (both >> (previous_of_three(axis)) & 1);
     }
     case ShapeType::triangle:
       return vertex_a + vertex_b - 1;

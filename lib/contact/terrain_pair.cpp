@@ -1,5 +1,6 @@
 #include "contact/terrain_pair.h"
 
+#include "base/cycle.h"
 #include "contact/contact_seam.h"
 #include "math/root.h"
 
@@ -180,7 +181,7 @@ bool TerrainPair::is_before_neighbour(const TerrainTriangle& t, const Vec32& nor
   int64_t most = 0;
   uint32_t farthest = 3;
   for (uint32_t k = 0; k < 3; ++k) {
-    const Vec32 along = unit_vector_raw(scaled_to_30_bits(subtract(t.corner[(k + 1) % 3], t.corner[k])));
+    const Vec32 along = unit_vector_raw(scaled_to_30_bits(subtract(t.corner[next_of_three(k)], t.corner[k])));
     const Vec32 out = unit_vector_raw(scaled_to_30_bits(cross(along, normal)));
     const int64_t beyond = dot(add(middle_, negate(from_centre(t.corner[k]))), out).round_shift(30);
     if (beyond <= most) continue;
@@ -256,7 +257,7 @@ bool TerrainPair::has_sharp_edge(const Side& side) const {
 bool TerrainPair::has_nearer_exit(const Side& side, int64_t deepest) const {
   for (uint32_t k = 0; k < 3; ++k) {
     const TerrainTriangle& t = side.triangle;
-    const Vec32 &a = t.corner[k], &b = t.corner[(k + 1) % 3];
+    const Vec32 &a = t.corner[k], &b = t.corner[next_of_three(k)];
     if (!allows_other_normals(t.kind[k])) continue;
     Vec32 other;
     if (t.kind[k] == EdgeKind::open) {
@@ -281,7 +282,7 @@ bool TerrainPair::allows_at_corner(uint32_t triangle, const Vec32& corner, const
       for (uint32_t other = 1; other < 3; ++other) {
         if (!is_below(normal, subtract(t.corner[(k + other) % 3], corner))) return false;
       }
-      at = t.neighbour[direction == 0 ? k : (k + 2) % 3];
+      at = t.neighbour[direction == 0 ? k : previous_of_three(k)];
       if (at == triangle) return true;
       if (at == k_no_triangle) break;
     }
@@ -302,7 +303,7 @@ bool TerrainPair::allows(const Side& side, const Vec32& normal) const {
   }
   if (count == 3) return dot(normal, side.normal) > 0;
   for (uint32_t k = 0; k < 3 && count == 2; ++k) {
-    if (!level[k] || !level[(k + 1) % 3]) continue;
+    if (!level[k] || !level[next_of_three(k)]) continue;
     if (side.triangle.kind[k] != EdgeKind::convex) return side.triangle.kind[k] == EdgeKind::open;
     const TerrainTriangle beyond = terrain_.triangle(side.triangle.neighbour[k]);
     for (const Vec32& at : beyond.corner) {
@@ -316,7 +317,7 @@ bool TerrainPair::allows(const Side& side, const Vec32& normal) const {
 /// Returns a vector in the triangle's plane that is perpendicular to side k and points outward. Its length is 2^29 to
 /// 2^31.
 Vec32 TerrainPair::outward(const Side& side, uint32_t k) {
-  const Vec32 &a = side.triangle.corner[k], &b = side.triangle.corner[(k + 1) % 3];
+  const Vec32 &a = side.triangle.corner[k], &b = side.triangle.corner[next_of_three(k)];
   return scaled_to_30_bits(cross(scaled_to_30_bits(subtract(b, a)), side.normal));
 }
 

@@ -1,5 +1,6 @@
 #include "contact/terrain_query.h"
 
+#include "base/cycle.h"
 #include "math/arithmetic.h"
 #include "toi/moving_pair.h"
 
@@ -84,7 +85,7 @@ bool meets_triangle(const GridSegment& segment, const TerrainTriangle& triangle,
   int left = 0, right = 0;
   for (int k = 0; k < 3; ++k) {
     const Vec32 a = subtract(triangle.corner[k], segment.from),
-                b = subtract(triangle.corner[(k + 1) % 3], segment.from);
+                b = subtract(triangle.corner[next_of_three(k)], segment.from);
     const int sign = sign_of(dot(cross(a, b), displacement));
     left += sign > 0 ? 1 : 0;
     right += sign < 0 ? 1 : 0;

@@ -206,7 +206,7 @@ bool PenetrationSearch::complete(const Simplex& simplex, Vec64& across) {
     const auto elsewhere = [&](const Vec32& q) { return !(q == p(0)); };
     for (int i = 0; i < 6 && count == 1; ++i) {
       const int64_t side = i < 3 ? 1 : -1;
-      const int axis = i % 3;
+      const int axis = i < 3 ? i : i - 3;
       add_where({axis == 0 ? side : 0, axis == 1 ? side : 0, axis == 2 ? side : 0}, elsewhere);
     }
     across = {0, 1, 0};

@@ -1,4 +1,5 @@
 #pragma once
+#include "base/cycle.h"
 #include "distance/support.h"
 
 /// The simplex of GJK on integers. Exact signs decide which of its faces, edges and vertices is nearest to the origin,
@@ -190,8 +191,8 @@ inline void Simplex::reduce_tetrahedron() {
   }
   for (int b = 2; b >= 0; --b) {
     if (!edge_holds(a, vertex_[b].difference)) continue;
-    const Vec32& c = vertex_[(b + 1) % 3].difference;
-    const Vec32& d = vertex_[(b + 2) % 3].difference;
+    const Vec32& c = vertex_[next_of_three(b)].difference;
+    const Vec32& d = vertex_[previous_of_three(b)].difference;
     if (side_of_edge(a, edge_, edge_square_, along_, c) >= 0 && side_of_edge(a, edge_, edge_square_, along_, d) >= 0) {
       return keep(3, b);
     }

@@ -1,3 +1,4 @@
+#include "base/cycle.h"
 #include "joint/joint.h"
 #include "math/root.h"
 #include "math/scaled.h"
@@ -82,7 +83,7 @@ struct RowMaker {
   ///
   ///     C = -b_last u (row about the next axis),  C = b_next u (row about the last axis)
   void lock_axis(int axis) {
-    const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+    const int next = next_of_three(axis), last = previous_of_three(axis);
     const Matrix3 turned = matrix_from(relative);
     const Unit along[3] = {turned.column[axis].x, turned.column[axis].y, turned.column[axis].z};
     lock(angular(frame.column[next]), length_of(real_from_unit(-along[last], 0)));

@@ -1,5 +1,6 @@
 #include "motion/angular_velocity.h"
 
+#include "base/cycle.h"
 #include "math/trig.h"
 
 namespace detent {
@@ -25,8 +26,8 @@ void rotate_about(int axis, Scaled rate, int exponent, Real time, BodyFrame& fra
   frame.rotation = multiply(frame.rotation, Quat{part[0], part[1], part[2], cosine});
   const Unit sine_whole = scale_by_power(sine * cosine, 1);
   const Unit cosine_whole = cosine * cosine - sine * sine;
-  Real& next = frame.angular_momentum[(axis + 1) % 3];
-  Real& after = frame.angular_momentum[(axis + 2) % 3];
+  Real& next = frame.angular_momentum[next_of_three(axis)];
+  Real& after = frame.angular_momentum[previous_of_three(axis)];
   const Real turned = next * cosine_whole + after * sine_whole;
   after = after * cosine_whole - next * sine_whole;
   next = turned;
@@ -62,9 +63,9 @@ FreeRotation free_rotation_of(const BodyProperties& properties) {
   FreeRotation free = {Scaled(0.0), Scaled(0.0), Scaled(0.0), 0};
   if (!is_dynamic(properties) || is_isotropic(properties)) return free;
   free.odd = odd_axis(properties.inverse_inertia);
-  free.common = properties.inverse_inertia[(free.odd + 1) % 3];
+  free.common = properties.inverse_inertia[next_of_three(free.odd)];
   free.odd_rate = difference(properties.inverse_inertia[free.odd], free.common);
-  free.rest = difference(properties.inverse_inertia[(free.odd + 2) % 3], free.common);
+  free.rest = difference(properties.inverse_inertia[previous_of_three(free.odd)], free.common);
   return free;
 }
 
@@ -82,7 +83,7 @@ bool rotate_freely(const BodyProperties& properties, const FreeRotation& free, c
   const Vec3<Real> local = rotate_inverse(rotation, angular_momentum);
   angular_velocity = rotate(rotation, gyrate(properties, local));
   if (angular_velocity == none) return true;
-  const int a = free.odd, c = (a + 2) % 3;
+  const int a = free.odd, c = previous_of_three(a);
   BodyFrame frame = {rotation, {local.x, local.y, local.z}};
   // The rotation about the angular momentum commutes with the other two rotations, so it is applied once, at the end.
   if (free.rest == Scaled(0.0)) {

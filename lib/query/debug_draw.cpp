@@ -4,6 +4,7 @@
 #include <detent/query.h>
 #include <detent/world.h>
 
+#include "base/cycle.h"
 #include "base/float_environment.h"
 #include "motion/angular_velocity.h"
 #include "shape/bounds.h"
@@ -75,7 +76,7 @@ void draw_terrain(const World& world, const State& state, BodyId id, const Debug
   static_cast<void>(visit_triangles(world, id, &lines, [](void* user, const BodyTriangle& triangle) {
     const Lines& drawn = *static_cast<const Lines*>(user);
     for (int k = 0; k < 3; ++k)
-      drawn.to.line(drawn.to.user, triangle.corner[k], triangle.corner[(k + 1) % 3], drawn.kind);
+      drawn.to.line(drawn.to.user, triangle.corner[k], triangle.corner[next_of_three(k)], drawn.kind);
   }));
 }
 

@@ -1,4 +1,5 @@
 #include "shape/height_field.h"
+#include "base/cycle.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -92,7 +93,7 @@ TerrainTriangle HeightFieldView::triangle(uint32_t index) const {
       result.kind[k] = EdgeKind::open;
       continue;
     }
-    const Vec32 &a = result.corner[k], &b = result.corner[(k + 1) % 3], &c = result.corner[(k + 2) % 3];
+    const Vec32 &a = result.corner[k], &b = result.corner[next_of_three(k)], &c = result.corner[previous_of_three(k)];
     Vec32 corner[3];
     corners(other, corner);
     uint32_t opposite = 0;

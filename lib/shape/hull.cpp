@@ -1,5 +1,6 @@
 #include "shape/hull.h"
 
+#include "base/cycle.h"
 #include "math/wide.h"
 
 namespace detent {
@@ -83,7 +84,7 @@ bool triangles_are_good(const HullView& hull) {
   const uint8_t* triangle = hull.bytes + hull.at.triangles;
   for (uint32_t i = 0; i < 2 * hull.vertex_count - 4; ++i, triangle += 3) {
     for (uint32_t k = 0; k < 3; ++k) {
-      const uint32_t from = triangle[k], to = triangle[(k + 1) % 3];
+      const uint32_t from = triangle[k], to = triangle[next_of_three(k)];
       if (from >= hull.vertex_count || to >= hull.vertex_count) return false;
       const uint32_t side = half_edge(hull, from, to);
       if (side == k_half_edges_max || half_edge(hull, to, from) == k_half_edges_max) return false;

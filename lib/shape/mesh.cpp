@@ -1,4 +1,5 @@
 #include "shape/mesh.h"
+#include "base/cycle.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -42,12 +43,13 @@ bool triangle_is_good(const MeshView& mesh, uint32_t i) {
 bool edge_is_good(const MeshView& mesh, uint32_t i, uint32_t k) {
   const uint32_t other = mesh.neighbour(i, k);
   if (other == k_no_triangle) return true;
-  const uint32_t from = mesh.vertex_of(i, k), to = mesh.vertex_of(i, (k + 1) % 3);
+  const uint32_t from = mesh.vertex_of(i, k), to = mesh.vertex_of(i, next_of_three(k));
   for (uint32_t n = 0; n < 3; ++n) {
-    if (mesh.vertex_of(other, n) != to || mesh.vertex_of(other, (n + 1) % 3) != from) continue;
+    if (mesh.vertex_of(other, n) != to || mesh.vertex_of(other, next_of_three(n)) != from) continue;
     return mesh.neighbour(other, n) == i &&
-           mesh.kind(i, k) == edge_kind(mesh.vertex(from), mesh.vertex(to), mesh.vertex(mesh.vertex_of(i, (k + 2) % 3)),
-                                        mesh.vertex(mesh.vertex_of(other, (n + 2) % 3)));
+           mesh.kind(i, k) == edge_kind(mesh.vertex(from), mesh.vertex(to),
+                                        mesh.vertex(mesh.vertex_of(i, previous_of_three(k))),
+                                        mesh.vertex(mesh.vertex_of(other, previous_of_three(n))));
   }
   return false;
 }
