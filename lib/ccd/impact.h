@@ -36,7 +36,7 @@ inline constexpr uint32_t k_impacts_max = 32;  ///< per body and tick
 inline constexpr uint32_t k_impacts_max_spent = 16, k_impact_work_times = 8, k_impact_work_min = 512;
 /// A jointed body's sweep is marked with k_mark_jointed times the number of the body's island. These numbers begin at
 /// 1. All other marks are less than k_mark_jointed.
-inline constexpr uint32_t k_mark_jointed = 64;
+inline constexpr uint32_t k_mark_jointed = 128;
 
 /// What a step used of the pools and budgets of continuous collision, which all islands share.
 struct ImpactUse {

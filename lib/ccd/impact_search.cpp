@@ -93,11 +93,15 @@ ImpactPair* find_impact(const ImpactStage& stage, uint64_t key) {
 
 /// A lower bound, m, of the distance that a pair without contact had at the start of the tick. The contact points of a
 /// known pair were searched up to its speculative distance. The bounds of other pairs were disjoint, if one of the
-/// bodies moved; they include the contact margin. Nothing is known of two bodies that rested.
+/// bodies moved; they include the contact margin. Nothing is known of two bodies that rested, and of two bodies whose
+/// contact may have been left out as a sliver.
 Real distance_without_contact(const ImpactStage& stage, uint64_t key) {
   const uint32_t low = pair_low(key), high = pair_high(key);
   const BodySweep &a = stage.bodies.sweeps[low], &b = stage.bodies.sweeps[high];
-  if (!stage.known.complete || ((a.marks | b.marks) & k_mark_moved) == 0) return k_zero;
+  const auto is_known = [](const BodySweep& sweep) {
+    return (sweep.marks & (k_mark_moved | k_mark_sliver)) == k_mark_moved;
+  };
+  if (!stage.known.complete || (!is_known(a) && !is_known(b))) return k_zero;
   const bool searched =
       !has_parts(stage.bodies.properties[low], stage.bodies.properties[high]) && has_pair(stage.known.pairs, key);
   return speculative_distance(stage.settings, stage.extent_of(key), searched ? a.speed + b.speed : k_zero, false);

@@ -7,9 +7,10 @@
 #include "math/scaled.h"
 
 /// Block floating point for one contact. The numbers of a contact in a pass (speeds, impulses, or lengths) share one
-/// power of two, the block. The largest number determines it, so that products of 32 by 32 bits are sufficient. The
-/// state stays in Real. An impulse is rounded to the block once, and then acts on both bodies; therefore the rounding
-/// conserves linear momentum. In float the same code uses plain numbers.
+/// power of two, the block. The largest number determines it. The widths are such that a sum of products has at most 53
+/// bits: a double holds it exactly, and lanes compute with doubles (lib/solver/lanes.h). The state stays in Real. An
+/// impulse is rounded to the block once, and then acts on both bodies; therefore the rounding conserves linear
+/// momentum. In float the same code uses plain numbers.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -17,7 +18,7 @@ inline namespace DETENT_NAMESPACE {
 
 /// A number of a block, in units of 2^shift ulps of Real.
 using Ulps = int64_t;
-/// A number of a block that can be multiplied: within +-2^30, so that a sum of two products with Units is below 2^62.
+/// A number of a block that can be multiplied: within +-k_factor_max, unless a comment gives another range.
 using Factor = int32_t;
 /// A sum of products of factors and Units, in units of 2^-30 ulps.
 using UlpSum = int64_t;
@@ -25,10 +26,11 @@ struct Mantissas {
   Factor x, y, z;
 };
 
-inline constexpr int64_t k_factor_max = int64_t{1} << 30;
-inline constexpr int k_mantissa_bits = 27;  ///< bits of a motion: a sum of five stays below 2^30
-inline constexpr int k_number_bits = 28;    ///< bits of an impulse: a sum of four is a factor
-inline constexpr int k_wrench_bits = 28;    ///< bits of each part of a wrench: its torque on a body stays below 2^30
+inline constexpr int64_t k_factor_max = int64_t{1} << 26;
+inline constexpr int64_t k_row_max = int64_t{1} << 24;  ///< range of L D in the factor of a contact's rows
+inline constexpr int k_mantissa_bits = 24;              ///< bits of a motion
+inline constexpr int k_number_bits = 24;                ///< bits of an impulse: a sum of four is a factor
+inline constexpr int k_wrench_bits = 25;                ///< bits of each part of a wrench
 /// The least shift of a block: the finest step of a block is 2^-37 m/s. Must exceed k_angular_velocity_power.
 inline constexpr int k_shift_min = 9;
 /// The solver stores angular velocities times 2^-k_angular_velocity_power, because the angular velocity of a slender
@@ -112,20 +114,55 @@ class Block {
   int shift_ = k_shift_min;
 };
 
+/// The fraction bits of the Units that are multiplied by factors: Units rounded to 2^-24.
+inline constexpr int k_fine_frac = 24;
+/// Rounds to 2^-24. Range: |value| <= 1.
+inline Unit fine(Unit value) {
+  constexpr int32_t k_step = 1 << (k_unit_frac - k_fine_frac);
+  return Unit::from_raw((value.raw + k_step / 2) & -k_step);
+}
+/// Rounds an arm to 2^-23, so that it has at most 24 bits. Range: |arm| < 2 - 2^-23.
+inline Vec3<Unit> fine_arm(const Vec3<Unit>& arm) {
+  constexpr int32_t k_step = 2 << (k_unit_frac - k_fine_frac);
+  const auto part = [](Unit value) {
+    constexpr int32_t k_most = INT32_MAX - k_step;
+    return Unit::from_raw(((value.raw < k_most ? value.raw : k_most) + k_step / 2) & -k_step);
+  };
+  return {part(arm.x), part(arm.y), part(arm.z)};
+}
+inline Vec3<Unit> fine(const Vec3<Unit>& v) { return {fine(v.x), fine(v.y), fine(v.z)}; }
+/// Rounds the mantissa to 24 bits.
+inline Scaled fine(Scaled value) {
+  if (value.mantissa == 0) return value;
+  constexpr int64_t k_step = 128;
+  const int64_t mantissa = (int64_t{value.mantissa} + k_step / 2) & -k_step;
+  if (mantissa == int64_t{1} << 31) return Scaled::from_parts(1 << 30, value.exponent + 1);
+  return Scaled::from_parts(static_cast<int32_t>(mantissa), value.exponent);
+}
+
 inline UlpSum product(Factor a, Unit b) { return int64_t{a} * b.raw; }
 inline UlpSum whole(Factor a) { return int64_t{a} << k_unit_frac; }
-DETENT_SHARED inline Ulps rounded(UlpSum sum) { return round_shift_64(sum, k_unit_frac); }
+/// Whether a double holds the sum exactly, as lanes need it.
+inline bool fits_double(int64_t sum) {
+  return sum == 0 || bit_length_64(magnitude_64(sum)) - __builtin_ctzll(static_cast<uint64_t>(sum)) <= 53;
+}
+/// The sum times 2^-n, rounded to nearest, ties up. Range: fits_double(); 1 <= n <= 63.
+DETENT_SHARED inline Ulps rounded_shift(int64_t sum, int n) {
+  DETENT_VERIFY_RANGE(fits_double(sum));
+  return round_shift_64(sum, n);
+}
+DETENT_SHARED inline Ulps rounded(UlpSum sum) { return rounded_shift(sum, k_unit_frac); }
 DETENT_SHARED inline Ulps times(Factor a, Unit b) { return rounded(product(a, b)); }
 /// a times b times 2^exponent. Range: exponent < 30.
 inline Ulps times_scaled(Factor a, Unit b, int exponent) {
-  return round_shift_64(product(a, b), k_unit_frac - exponent);
+  return rounded_shift(product(a, b), k_unit_frac - exponent);
 }
 /// Conversions between numbers and sums of products, for Units that stand for their value times 2^exponent. Range:
 /// exponent < 30.
 inline UlpSum sum_from(Ulps a, int exponent) {
   return static_cast<int64_t>(static_cast<uint64_t>(a) << (k_unit_frac - exponent));
 }
-inline Ulps rounded(UlpSum sum, int exponent) { return round_shift_64(sum, k_unit_frac - exponent); }
+inline Ulps rounded(UlpSum sum, int exponent) { return rounded_shift(sum, k_unit_frac - exponent); }
 /// a times b. Range: b >= 0.
 DETENT_SHARED inline Factor times(Factor a, Scaled b) {
   if (b.exponent >= 0) return b.mantissa == 0 ? 0 : held(shift_64(a, 32));
@@ -146,7 +183,8 @@ DETENT_SHARED inline void clamp_to_circle(Factor (&v)[2], Factor limit) {
   const uint64_t square = x * x + y * y;
   if (square <= radius * radius) return;
   const uint64_t size = uint64_t{square_root_floor(square)} + 1;
-  const Unit factor = Unit::from_raw(static_cast<int32_t>((radius << k_unit_frac) / size));
+  const Unit factor =
+      Unit::from_raw(static_cast<int32_t>((radius << k_fine_frac) / size) << (k_unit_frac - k_fine_frac));
   v[0] = static_cast<Factor>(times(v[0], factor));
   v[1] = static_cast<Factor>(times(v[1], factor));
 }
@@ -175,6 +213,10 @@ class Block {
   template <unsigned count>
   void coarsen(Ulps (&)[count]) {}
 };
+
+inline Unit fine(Unit value) { return value; }
+inline Vec3<Unit> fine(const Vec3<Unit>& v) { return v; }
+inline Vec3<Unit> fine_arm(const Vec3<Unit>& v) { return v; }
 
 inline Factor held(Ulps a) { return a; }
 inline UlpSum product(Ulps a, Unit b) { return a * b; }

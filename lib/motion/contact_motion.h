@@ -69,7 +69,51 @@ struct One {
 
   static Factor zero() { return k_no_ulps; }
   static Unit unit(Unit value) { return value; }
-  static bool takes_impulses(Scaled share) { return is_positive(share); }
+#if DETENT_FIXED
+  using Wide = int64_t;
+  // The factor of the points' rows. Mantissas of the coupling have 24 fraction bits, L has 20, inverse pivots 16.
+  static Factor mantissa(const Contact& contact, uint32_t i, uint32_t k) { return contact.coupling[i][k].raw >> 6; }
+  static Wide widened(Factor value) { return int64_t{value} << 20; }
+  static Wide wide(Factor a, Factor b) { return int64_t{a} * b; }
+  static Ulps narrowed(Wide sum) { return rounded_shift(sum, 20); }
+  DETENT_SHARED static Ulps scaled_product(Factor a, Factor b) { return narrowed(wide(a, b)); }
+  static Factor held_row(Ulps a) { return static_cast<Factor>(clamp(a, -k_row_max, k_row_max)); }
+  static Factor eightfold(Factor a) { return a * 8; }
+  static Factor inverse(Ulps pivot) {
+    constexpr Ulps k_least = 1 << 13;
+    return static_cast<Factor>((uint64_t{1} << 40) / static_cast<uint64_t>(pivot < k_least ? k_least : pivot));
+  }
+  static Ulps quotient(const Contact& contact, Factor side, Factor inverse_pivot) {
+    return rounded_shift(wide(side, inverse_pivot), 16 + contact.coupling_exponent);
+  }
+  static Ulps soft_speed(const Contact& contact, Factor impulse, Factor mantissa) {
+    const int n = 24 - contact.coupling_exponent;
+    return n > 0 ? rounded_shift(wide(impulse, mantissa), n) : shift_64(wide(impulse, mantissa), -n);
+  }
+#else
+  using Wide = detent::Real;
+  static Factor mantissa(const Contact& contact, uint32_t i, uint32_t k) { return contact.coupling[i][k]; }
+  static Wide widened(Factor value) { return value; }
+  static Wide wide(Factor a, Factor b) { return a * b; }
+  static Ulps narrowed(Wide sum) { return sum; }
+  static Ulps scaled_product(Factor a, Factor b) { return a * b; }
+  static Factor held_row(Factor a) { return a; }
+  static Factor eightfold(Factor a) { return a * detent::Real(8.0); }
+  static Factor inverse(Ulps pivot) { return detent::Real(1.0) / pivot; }
+  static Ulps quotient(const Contact&, Factor side, Factor inverse_pivot) { return side * inverse_pivot; }
+  static Ulps soft_speed(const Contact&, Factor impulse, Factor mantissa) { return impulse * mantissa; }
+#endif
+  static bool is_positive(Unit value) { return value > Unit(0.0); }
+  static Factor factor(Ulps value) { return static_cast<Factor>(value); }
+  /// Clamps a normal impulse to its range: not negative, and a factor.
+  static Ulps impulse(Ulps value) {
+#if DETENT_FIXED
+    return value < 0 ? 0 : value > k_factor_max ? k_factor_max : value;
+#else
+    return max(value, k_no_ulps);
+#endif
+  }
+  static bool takes_impulses(Scaled share) { return detent::is_positive(share); }
   static uint32_t flag(bool mask) { return mask ? 1 : 0; }
   static bool all() { return true; }
   static bool any(bool mask) { return mask; }
@@ -179,8 +223,9 @@ inline void push(const typename Kind::Block& block, const typename Kind::Vector&
     add(body.contact_velocity, linear_velocity);
     add(body.contact_angular_momentum, angular_momentum);
   }
-  const typename Kind::Vector turned = rounded(dot(torque, inverse_inertia.row[0]), dot(torque, inverse_inertia.row[1]),
-                                               dot(torque, inverse_inertia.row[2]));
+  const typename Kind::Vector turned =
+      rounded(dot(torque, fine(inverse_inertia.row[0])), dot(torque, fine(inverse_inertia.row[1])),
+              dot(torque, fine(inverse_inertia.row[2])));
   add(body.angular_velocity, block.real(turned, share, inverse_inertia.exponent - k_angular_velocity_power));
 }
 

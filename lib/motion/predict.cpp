@@ -24,6 +24,7 @@ Real start_body(const StepSettings& settings, const BodyProperties& properties, 
   const Real zero = 0.0;
   const Vec3<Real> none = {zero, zero, zero};
   Real angular_velocity = zero;
+  work.colours = 0;
   work.joint_body = UINT32_MAX;
   work.rotation = pose.rotation;
   work.displacement = none;

@@ -3,6 +3,7 @@
 #include <detent/world.h>
 
 #include "math/root.h"
+#include "motion/block.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -11,14 +12,15 @@ namespace {
 /// Fractions of WorldDef::damping_ratio, for contacts between dynamic bodies, and for all other contacts.
 constexpr Unit k_dynamic_damping = 0.7, k_static_damping = 0.5;
 
+constexpr Real k_contact_softness_max = 15.0;  ///< a softer contact is a little stiffer than it is set
+
 /// Computes a Softness. `contact_frequency`: frequency of the spring / substep rate. `damping_ratio`: 1 is critical.
 Softness softness(Real contact_frequency, Real damping_ratio) {
-  const Real one = 1.0;
   const Real phase = k_two_pi * contact_frequency;  // angular frequency x substep
   const Real a1 = scale_by_power(damping_ratio, 1) + phase;
   const Real a2 = phase * a1;
-  const Real inverse = reciprocal(one + a2);
-  return {unit_from_real(divide(phase, a1), 0), unit_from_real(a2 * inverse, 0), unit_from_real(inverse, 0)};
+  return {fine(unit_from_real(divide(phase, a1), 0)),
+          fine(unit_from_real(min(reciprocal(a2), k_contact_softness_max), 3))};
 }
 
 /// The least e with a < 2^e. Range: a > 0.
@@ -55,7 +57,7 @@ StepSettings step_settings(const WorldState& world) {
   const Scaled rate = divide(scaled_from(world.tick_time), scaled_from(k_two_pi * world.contact_frequency));
   settings.substeps_per_rate = multiply(rate, rate);
   set_substeps(world.substeps == 0 ? 1 : world.substeps, settings);
-  settings.relaxation = unit_from_real(world.relaxation, 0);
+  settings.relaxation = fine(unit_from_real(world.relaxation, 0));
   settings.gravity = world.gravity;
   settings.gravity_size = max(length(world.gravity), Real(1.0));
   settings.sunk = scale_by_power(settings.gravity_size * settings.tick_time * settings.tick_time, -2);
@@ -66,7 +68,7 @@ StepSettings step_settings(const WorldState& world) {
   settings.convergence = world.convergence;
   settings.post_stabilises = static_cast<Stabilisation>(world.stabilisation) == Stabilisation::post;
   if (settings.post_stabilises) {
-    settings.dynamic_softness = settings.static_softness = {Unit(0.0), Unit(1.0), Unit(0.0)};
+    settings.dynamic_softness = settings.static_softness = {Unit(0.0), Unit(1.0 / 256)};
     return settings;
   }
   settings.dynamic_softness = softness(world.contact_frequency, world.damping_ratio * k_dynamic_damping);
@@ -86,7 +88,7 @@ void set_substeps(uint32_t substeps, StepSettings& settings) {
   settings.rate = divide(Scaled(1.0), scaled_from(settings.time));
   settings.gap_max = settings.time * Real(32768.0);
   settings.rate_exponent = exponent_of(settings.rate);
-  settings.rate_mantissa = to_unit(scaled_by_power(settings.rate, -settings.rate_exponent));
+  settings.rate_mantissa = fine(to_unit(scaled_by_power(settings.rate, -settings.rate_exponent)));
 }
 
 Scaled scaled_from_count(uint32_t count) {

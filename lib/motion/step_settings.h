@@ -14,8 +14,7 @@ inline namespace DETENT_NAMESPACE {
 /// Source: Catto, "Soft Constraints", GDC 2011.
 struct Softness {
   Unit rate;           ///< fraction of the overlap that is corrected in a substep
-  Unit mass_scale;     ///< factor of the effective mass
-  Unit impulse_scale;  ///< fraction of the accumulated impulse that the spring removes
+  Unit spring_eighth;  ///< an eighth of the softness of a row over its response
 };
 
 /// The world's settings in the form that the stages use, derived once per step.

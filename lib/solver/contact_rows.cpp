@@ -1,5 +1,6 @@
 #include "solver/contact_rows.h"
 
+#include "base/cycle.h"
 #include "base/unroll.h"
 #include "math/root.h"
 #include "motion/angular_velocity.h"
@@ -52,7 +53,7 @@ void add_response(const ContactWork& work, const Number (&turning)[3][3], int ex
   DETENT_UNROLL
   for (int k = 0; k < 3; ++k) {
     // r x e_k only has components along the two other axes.
-    const int next = (k + 1) % 3, last = (k + 2) % 3;
+    const int next = next_of_three(k), last = previous_of_three(k);
     Number angular_velocity[3];
     DETENT_UNROLL
     for (int i = 0; i < 3; ++i) {
@@ -62,7 +63,7 @@ void add_response(const ContactWork& work, const Number (&turning)[3][3], int ex
     DETENT_UNROLL
     for (int i = 0; i < 3; ++i) {
       if (i > k) continue;
-      const int after = (i + 1) % 3, before = (i + 2) % 3;
+      const int after = next_of_three(i), before = previous_of_three(i);
       add_part(i, k, angular_velocity[after] * along[before] - angular_velocity[before] * along[after], i == k);
       add_part(i + 3, k + 3, (turning[i][k] * unit) * unit, false);
     }
@@ -125,15 +126,15 @@ void couple(const PairResponse& response, ContactWork& work) {
       coupling[i][k] = coupling[k][i] = sum;
       most = max(most, abs(sum));
     }
-    work.inverse_mass[i] = mass_of(coupling[i][i]);
+    work.inverse_mass[i] = fine(mass_of(coupling[i][i]));
   }
-  // A thin body that is hit far from its centre can reach this limit. The sweeps then converge more slowly.
+  // A thin body that is hit far from its centre can reach this limit. Its points then get smaller impulses.
   constexpr int32_t k_most = 29;
   const int32_t exponent = exponent_for(most);
   work.coupling_exponent = exponent < k_most ? exponent : k_most;
   for (uint32_t i = 0; i < count; ++i) {
     for (uint32_t k = 0; k < k_manifold_points_max; ++k)
-      work.coupling[i][k] = k < count ? unit_from_real(coupling[i][k], work.coupling_exponent) : Unit(0.0);
+      work.coupling[i][k] = k < count ? fine(unit_from_real(coupling[i][k], work.coupling_exponent)) : Unit(0.0);
   }
 }
 
@@ -187,7 +188,7 @@ int32_t share_length(const BodyProperties& a, const BodyProperties& b, ContactWo
   int32_t unit = moves_a ? a.size_exponent : b.size_exponent;
   if (moves_b && b.size_exponent < unit) unit = b.size_exponent;
   const auto in_unit_of = [unit](bool moves, const BodyProperties& body) {
-    return moves ? scale_by_power(Unit(1.0), unit - body.size_exponent) : Unit(0.0);
+    return moves ? fine(scale_by_power(Unit(1.0), unit - body.size_exponent)) : Unit(0.0);
   };
   work.unit_a = in_unit_of(moves_a, a);
   work.unit_b = in_unit_of(moves_b, b);
@@ -255,8 +256,9 @@ Unit place_points(const ContactGeometry& geometry, Vec3<Unit> ContactGeometryPoi
     work.x[i] = work.y[i] = work.inverse_mass[i] = Unit(0.0);
     if (i >= geometry.count) continue;
     const Vec3<Unit> offset = geometry.point[i].*arm - middle;
-    work.x[i] = dot(offset, work.tangent[0]);
-    work.y[i] = dot(offset, work.tangent[1]);
+    const Vec3<Unit> place = fine_arm({dot(offset, work.tangent[0]), dot(offset, work.tangent[1]), Unit(0.0)});
+    work.x[i] = place.x;
+    work.y[i] = place.y;
     const Unit x = scale_by_power(work.x[i], -1), y = scale_by_power(work.y[i], -1);
     sum += (x * x + y * y) * share;
   }
@@ -271,23 +273,25 @@ void renew_response(const WorldInverseInertia& a, const WorldInverseInertia& b, 
   Real most = 1.0;
   for (const Real& part : response.part) most = max(most, abs(part));
   work.response_exponent = exponent_for(most);
-  for (int i = 0; i < k_responses; ++i) work.response[i] = unit_from_real(response.part[i], work.response_exponent);
+  for (int i = 0; i < k_responses; ++i)
+    work.response[i] = fine(unit_from_real(response.part[i], work.response_exponent));
   couple(response, work);
-  work.friction_mass[0] = mass_of(own(k_along_first));
-  work.friction_mass[1] = mass_of(own(k_along_second));
-  for (int i = 0; i < 3; ++i) work.angular_mass[i] = angular_mass_of(own(static_cast<Part>(k_about_normal + i)));
+  work.friction_mass[0] = fine(mass_of(own(k_along_first)));
+  work.friction_mass[1] = fine(mass_of(own(k_along_second)));
+  for (int i = 0; i < 3; ++i) work.angular_mass[i] = fine(angular_mass_of(own(static_cast<Part>(k_about_normal + i))));
 }
 
 void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b, const ContactGeometry& geometry,
                ContactWork& work) {
-  work.normal = geometry.normal;
+  work.normal = fine(geometry.normal);
   make_tangents(work.normal, work.tangent);
+  for (Vec3<Unit>& tangent : work.tangent) tangent = fine(tangent);
   share_mass(a.properties, b.properties, work);
   const int32_t unit = share_length(a.properties, b.properties, work);
-  work.middle_a = mean(geometry, &ContactGeometryPoint::arm_a);
-  work.middle_b = mean(geometry, &ContactGeometryPoint::arm_b);
-  work.moment_a = cross(work.middle_a, work.normal);
-  work.moment_b = cross(work.middle_b, work.normal);
+  work.middle_a = fine_arm(mean(geometry, &ContactGeometryPoint::arm_a));
+  work.middle_b = fine_arm(mean(geometry, &ContactGeometryPoint::arm_b));
+  work.moment_a = fine_arm(cross(work.middle_a, work.normal));
+  work.moment_b = fine_arm(cross(work.middle_b, work.normal));
   const Unit patch = work.unit_a == Unit(1.0)
                          ? place_points(geometry, &ContactGeometryPoint::arm_a, work.middle_a, work)
                          : place_points(geometry, &ContactGeometryPoint::arm_b, work.middle_b, work);
@@ -311,13 +315,13 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
   }
   for (int i = 0; i < 2; ++i) work.friction_impulse[i] = dot(work.state.friction_impulse, work.tangent[i]);
 
-  work.friction = geometric_mean(a.properties.friction, b.properties.friction);
+  work.friction = fine(geometric_mean(a.properties.friction, b.properties.friction));
   work.restitution = pair_restitution(a.properties, b.properties);
   const Scaled &rolls_a = a.properties.rolling_resistance, &rolls_b = b.properties.rolling_resistance;
   const Scaled rolling = less(rolls_a, rolls_b) ? rolls_b : rolls_a;
   const Real extent = min(a.extent, b.extent);
-  work.rolling_arm = multiply(rolling, scaled_by_power(scaled_from(extent), -1 - unit));
-  work.twist_arm = add(multiply(work.friction, scaled_from(patch)), work.rolling_arm);
+  work.rolling_arm = fine(multiply(rolling, scaled_by_power(scaled_from(extent), -1 - unit)));
+  work.twist_arm = fine(add(multiply(work.friction, scaled_from(patch)), work.rolling_arm));
   work.angular_rows = is_positive(work.rolling_arm) ? 3 : is_positive(work.twist_arm) ? 1 : 0;
   const Vec3<Unit>* axes[3] = {&work.normal, &work.tangent[0], &work.tangent[1]};
   for (uint32_t i = 0; i < 3; ++i) {

@@ -8,10 +8,16 @@ inline namespace DETENT_NAMESPACE {
 /// A point counts as in contact if its approach speed is at most k_arrival push_max below the speed that closes its
 /// gap.
 inline constexpr Unit k_arrival = 1.0 / 512;
-/// Largest numbers of sweeps over the points of a contact. The sweeps end earlier if no impulse changes by more than
-/// k_settled times the greatest impulse.
-inline constexpr int k_normal_sweeps = 8, k_relax_sweeps = 8;
-inline constexpr Unit k_settled = 0x1p-14;
+/// Largest number of rounds in which the points of a contact change between touching and not.
+inline constexpr int k_pivot_rounds = 6;
+/// Softness of rows that are not springs, over their response: it makes impulses of redundant points definite.
+inline constexpr Unit k_rigid_softness = 1.0 / 32;
+
+/// A change times the relaxation of SOR.
+template <class Kind>
+inline typename Kind::Number relaxed(typename Kind::Number change, Unit relaxation) {
+  return relaxation == Unit(1.0) ? change : typename Kind::Number(times(held(change), Kind::unit(relaxation)));
+}
 
 /// The normal rows of a contact in one pass over its points. The motions of the bodies are read when the pass begins,
 /// and written when it ends.
@@ -19,6 +25,7 @@ template <class Kind>
 struct Normals {
   using Number = typename Kind::Number;
   using Factor = typename Kind::Factor;
+  using Mask = typename Kind::Mask;
 
   const typename Kind::Contact& contact;
   const uint32_t count;
@@ -26,6 +33,10 @@ struct Normals {
   typename Kind::Sum velocity[k_manifold_points_max];
   Number impulse[k_manifold_points_max];  ///< accumulated normal impulses, updated with each change
   Number added[k_manifold_points_max];
+  // The rows for solve_rows().
+  Factor wanted[k_manifold_points_max];    ///< speed minus the target; to be set
+  Factor softness[k_manifold_points_max];  ///< mantissas of the coupling
+  Mask may[k_manifold_points_max];         ///< whether the impulse may change
 
   Normals(const typename Kind::Contact& of_pair, const typename Kind::Block& block, const NormalMotion<Kind>& motion)
       : contact(of_pair), count(of_pair.state.point_count) {
@@ -34,34 +45,49 @@ struct Normals {
       velocity[i] = sum_from(motion.at(contact, i), contact.coupling_exponent);
       impulse[i] = block.number(contact.state.normal_impulse[i]);
       added[i] = Kind::zero();
+      wanted[i] = Kind::zero();
+      // A single row needs no softness.
+      softness[i] =
+          count == 1 ? Kind::zero() : Kind::factor(times(Kind::mantissa(contact, i, i), Kind::unit(k_rigid_softness)));
+      may[i] = Kind::is_positive(contact.inverse_mass[i]);
     }
   }
   Number speed(uint32_t i) const { return rounded(velocity[i], contact.coupling_exponent); }
-  /// Subtracts `less` from the impulse at point i, which stays at least 0. Returns the change of the impulse.
-  Factor change(uint32_t i, Number less) {
-    const Factor more = held(max(impulse[i] - less, Number(Kind::zero())) - impulse[i]);
-    impulse[i] += more;
-    added[i] += more;
+  /// Solves the rows of all points at once. With w = wanted + (K + S) change, K the coupling and S the diagonal of
+  /// `softness`: each point that `may` change has w = 0 and an impulse of at least 0, or an impulse of 0 and w >= 0. In
+  /// each round the points that the last solution contradicts change sides (block pivoting).
+  /// Source: Judice, Pires, "A block principal pivoting algorithm ...", Computers and Operations Research, 1994.
+  void solve_rows(Unit relaxation) {
+    const Factor none = Kind::zero();
+    Mask active[k_manifold_points_max];
+    Factor change[k_manifold_points_max] = {none, none, none, none};
     DETENT_UNROLL
-    for (uint32_t k = 0; k < k_manifold_points_max; ++k) velocity[k] += product(more, contact.coupling[i][k]);
-    return more;
-  }
-  /// Sweeps over the points, and subtracts less(i) from the impulse of each point i, until the changes are small.
-  template <class Less>
-  void solve(int sweeps, const Less& less) {
-    const Number none = Number(Kind::zero());
-    auto goes_on = Kind::all();
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
-      Number most = none, total = none;
+    for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
+      if (i < count) active[i] = may[i] & ((impulse[i] > none) | (none > wanted[i]));
+    }
+    Mask goes_on = Kind::all();
+    for (int round = 0; round < k_pivot_rounds; ++round) {
+      Factor next[k_manifold_points_max] = {none, none, none, none};
+      solve_active(active, next);
+      Mask changes = none > none;
       DETENT_UNROLL
       for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
         if (i >= count) break;
-        const Number more = change(i, select(goes_on, less(i), none));
-        most = max(most, max(more, Number(-more)));
-        total = max(total, impulse[i]);
+        change[i] = select(goes_on, next[i], change[i]);
+        Mask flips = goes_on & active[i] & (none > impulse[i] + next[i]);
+        const Mask rests = goes_on & may[i] & !active[i];
+        if (Kind::any(rests)) flips = flips | (rests & (none > residual(i, next)));
+        active[i] = (flips & !active[i]) | (active[i] & !flips);
+        changes = changes | flips;
       }
-      goes_on = goes_on & (most > times(held(total), Kind::unit(k_settled)));
-      if (count == 1 || !Kind::any(goes_on)) break;
+      goes_on = goes_on & changes;
+      if (!Kind::any(goes_on)) break;
+    }
+    DETENT_UNROLL
+    for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
+      if (i >= count) break;
+      add(i,
+          select(may[i], Factor(Kind::impulse(impulse[i] + relaxed<Kind>(change[i], relaxation)) - impulse[i]), none));
     }
   }
   void store(const typename Kind::Block& block, typename Kind::Contact& to) const {
@@ -84,6 +110,57 @@ struct Normals {
       along += added[i];
       about_first += times(held(added[i]), contact.y[i]);
       about_second -= times(held(added[i]), contact.x[i]);
+    }
+  }
+
+ private:
+  void add(uint32_t i, Factor more) {
+    impulse[i] += more;
+    added[i] += more;
+    DETENT_UNROLL
+    for (uint32_t k = 0; k < k_manifold_points_max; ++k) velocity[k] += product(more, contact.coupling[i][k]);
+  }
+  /// wanted + K change of point i.
+  Number residual(uint32_t i, const Factor (&change)[k_manifold_points_max]) const {
+    typename Kind::Sum sum = sum_from(Number(wanted[i]), contact.coupling_exponent);
+    DETENT_UNROLL
+    for (uint32_t k = 0; k < k_manifold_points_max; ++k) sum += product(change[k], contact.coupling[i][k]);
+    return rounded(sum, contact.coupling_exponent);
+  }
+  /// Solves (K + S) change = -wanted for the active points by a factor L D L^T; the other points that may take part
+  /// give up their impulses.
+  void solve_active(const Mask (&active)[k_manifold_points_max], Factor (&change)[k_manifold_points_max]) const {
+    const Factor none = Kind::zero();
+    DETENT_UNROLL
+    for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
+      if (i < count) change[i] = select(may[i] & !active[i], Factor(-held(impulse[i])), none);
+    }
+    Factor side[k_manifold_points_max];
+    Factor lower[k_manifold_points_max][k_manifold_points_max];  // L
+    Factor inverse[k_manifold_points_max];                       // of D
+    DETENT_UNROLL
+    for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
+      if (i >= count) break;
+      side[i] = select(active[i], Factor(-held(residual(i, change))), none);
+      Factor scaled[k_manifold_points_max];  // L D
+      Number pivot = Number(Kind::mantissa(contact, i, i)) + softness[i];
+      DETENT_UNROLL
+      for (uint32_t k = 0; k < i; ++k) {
+        typename Kind::Wide sum = Kind::widened(select(active[i] & active[k], Kind::mantissa(contact, i, k), none));
+        DETENT_UNROLL
+        for (uint32_t m = 0; m < k; ++m) sum -= Kind::wide(scaled[m], lower[k][m]);
+        scaled[k] = Kind::held_row(Kind::narrowed(sum));
+        lower[i][k] = held(Kind::scaled_product(scaled[k], inverse[k]));
+        pivot -= Kind::scaled_product(scaled[k], lower[i][k]);
+        side[i] = held(side[i] - Kind::scaled_product(side[k], lower[i][k]));
+      }
+      inverse[i] = Kind::inverse(pivot);
+    }
+    for (uint32_t i = count; i-- > 0;) {
+      Number solved = held(Kind::quotient(contact, side[i], inverse[i]));
+      for (uint32_t k = i + 1; k < count; ++k)
+        solved -= Kind::scaled_product(change[k], select(active[k], lower[k][i], none));
+      change[i] = select(active[i], held(solved), change[i]);
     }
   }
 };
@@ -201,11 +278,15 @@ struct ContactSolver {
           block.converted(held(times(length, Kind::unit(settings.rate_mantissa))), moved.block, settings.rate_exponent);
       push[i] = select(apart[i], speed, max(speed, Factor(-push_max)));
     }
-    normals.solve(k_normal_sweeps, [&](uint32_t i) {
-      const Factor step = held(times(held(normals.speed(i) + push[i]), contact.inverse_mass[i]));
-      const Number softly = times(step, soft.mass_scale) + times(held(normals.impulse[i]), soft.impulse_scale);
-      return relaxed(select(apart[i], Number(step), softly));
-    });
+    DETENT_UNROLL
+    for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
+      if (i >= normals.count) break;
+      const Factor spring = Kind::factor(times(Kind::eightfold(Kind::mantissa(contact, i, i)), soft.spring_eighth));
+      const Number pull = Kind::soft_speed(contact, Factor(held(normals.impulse[i])), spring);
+      normals.softness[i] = select(apart[i], normals.softness[i], spring);
+      normals.wanted[i] = held(normals.speed(i) + push[i] + select(apart[i], Number(none), pull));
+    }
+    normals.solve_rows(settings.relaxation);
     DETENT_UNROLL
     for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
       if (i >= normals.count) break;
@@ -226,12 +307,15 @@ struct ContactSolver {
     const PairMotion<Kind> motion = relative_motion(room);
     Sliding<Kind> sliding(contact, motion);
     Normals<Kind> normals(contact, motion.block, sliding.normal());
-    // Points that do not come into contact in this substep keep their approach speed.
-    normals.solve(k_relax_sweeps, [&](uint32_t i) {
-      const Number none = Number(Kind::zero());
-      const auto meets = Kind::is_unset(contact.apart[i]) | (normals.impulse[i] > none);
-      return select(meets, relaxed(times(held(normals.speed(i)), contact.inverse_mass[i])), none);
-    });
+    DETENT_UNROLL
+    for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
+      if (i >= normals.count) break;
+      normals.wanted[i] = held(normals.speed(i));
+      // Points that do not come into contact in this substep keep their approach speed.
+      const auto touches = Kind::is_unset(contact.apart[i]);
+      normals.may[i] = normals.may[i] & (touches | (normals.impulse[i] > Number(Kind::zero())));
+    }
+    normals.solve_rows(settings.relaxation);
     normals.store(motion.block, contact);
     Number along, about_first, about_second;
     normals.put(along, about_first, about_second);
@@ -268,7 +352,8 @@ struct ContactSolver {
   /// Returns the accumulated impulse that stops one part of the motion.
   template <class Mass>
   Factor stopped(const Sliding<Kind>& sliding, Part by, const typename Kind::Real& impulse, const Mass& mass) const {
-    return held(sliding.block.number(impulse) - relaxed(times(held(sliding.part[by]), mass)));
+    return held(sliding.block.number(impulse) -
+                relaxed<Kind>(times(held(sliding.part[by]), mass), settings.relaxation));
   }
   /// Stops two parts of the motion, with accumulated impulses limited to a circle.
   template <Part first, Part second, class Mass>
@@ -293,10 +378,6 @@ struct ContactSolver {
   void solve_friction(Factor normal, Sliding<Kind>& sliding) {
     stop_in_circle<k_along_first, k_along_second>(contact.friction_impulse, contact.friction_mass,
                                                   times(normal, contact.friction), sliding);
-  }
-
-  Number relaxed(Number change) const {
-    return settings.relaxation == Unit(1.0) ? change : Number(times(held(change), Kind::unit(settings.relaxation)));
   }
 };
 

@@ -36,7 +36,6 @@ uint32_t find_islands(Span<const uint32_t> slots, Span<const BodyProperties> pro
     now.island = now.run = slot;
     now.run_length = 1;
     now.contacts = 0;
-    now.colours = 0;
   }
   for (const ContactWork& contact : contacts) {
     ++work[contact.state.body_a].contacts;

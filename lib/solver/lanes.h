@@ -12,39 +12,71 @@ typedef int32_t LaneInt32 __attribute__((vector_size(16)));
 
 #if DETENT_FIXED
 
+typedef double LaneFloat __attribute__((vector_size(32)));
 typedef int64_t LaneInt64 __attribute__((vector_size(32)));
 typedef uint64_t LaneUint64 __attribute__((vector_size(32)));
+typedef int64_t LaneStoredInt64 __attribute__((vector_size(32), aligned(8)));
+typedef float LaneStoredFloat __attribute__((vector_size(16), aligned(8)));
+typedef int32_t LaneStoredInt32 __attribute__((vector_size(16), aligned(8)));
+using LaneMaskBits = LaneInt64;
 
-/// Ulps, factors, sums of products, and the raw numbers of Reals and Units. A factor or Unit that is only multiplied
-/// uses its low half; the high half may contain anything.
+/// Ulps, factors, Units, and sums of their products, as doubles. Every value is exact: ulps and factors are integers, a
+/// Unit is a multiple of 2^-24, and a sum of products has at most 53 bits (block.h). So the operations round nothing,
+/// except rounded(), and no result depends on the rounding mode.
 struct Lanes {
-  LaneInt64 v;
+  LaneFloat v;
 };
-struct LaneMask {
-  LaneInt64 v;
+/// The raw numbers of Reals.
+struct LaneReals {
+  LaneStoredInt64 v;
 };
+/// A product that is not yet computed: what is added to it is added in the same instruction. As every product and sum
+/// is exact, this changes no bit.
+struct LaneProduct {
+  LaneFloat a, b;
+  DETENT_LANES_INLINE operator Lanes() const { return {a * b}; }
+};
+/// Units, as floats, which hold them exactly.
+struct LaneUnits {
+  LaneStoredFloat v;
+  DETENT_LANES_INLINE operator Lanes() const { return {__builtin_convertvector(v, LaneFloat)}; }
+};
+/// Scaled values that multiply a motion of a body.
+struct LaneShare {
+  LaneStoredInt32 mantissa, exponent;
+};
+/// Scaled values that multiply a factor.
 struct LaneScaled {
-  Lanes mantissa, exponent;
+  LaneUnits value;
 };
 
-DETENT_LANES_INLINE Lanes lanes_of(int64_t value) { return {LaneInt64{value, value, value, value}}; }
+DETENT_LANES_INLINE Lanes lanes_of(double value) { return {LaneFloat{value, value, value, value}}; }
+DETENT_LANES_INLINE LaneInt64 words_of(int64_t value) { return LaneInt64{value, value, value, value}; }
 
 #else
 
 typedef Real LaneFloat __attribute__((vector_size(4 * sizeof(Real))));
+using LaneMaskBits = decltype(LaneFloat{} > LaneFloat{});
+
+typedef Real LaneStoredFloat __attribute__((vector_size(4 * sizeof(Real)), aligned(8)));
+typedef int32_t LaneStoredInt32 __attribute__((vector_size(16), aligned(8)));
 
 struct Lanes {
-  LaneFloat v;
+  LaneStoredFloat v;
 };
-using LaneMaskBits = decltype(LaneFloat{} > LaneFloat{});
-struct LaneMask {
-  LaneMaskBits v;
-};
+using LaneProduct = Lanes;
+using LaneReals = Lanes;
+using LaneUnits = Lanes;
+using LaneShare = Lanes;
 using LaneScaled = Lanes;
 
 DETENT_LANES_INLINE Lanes lanes_of(Real value) { return {LaneFloat{value, value, value, value}}; }
 
 #endif
+
+struct LaneMask {
+  LaneMaskBits v;
+};
 
 DETENT_LANES_INLINE Lanes operator+(Lanes a, Lanes b) { return {a.v + b.v}; }
 DETENT_LANES_INLINE Lanes operator-(Lanes a, Lanes b) { return {a.v - b.v}; }
@@ -53,126 +85,178 @@ DETENT_LANES_INLINE Lanes& operator+=(Lanes& a, Lanes b) { return a = a + b; }
 DETENT_LANES_INLINE Lanes& operator-=(Lanes& a, Lanes b) { return a = a - b; }
 DETENT_LANES_INLINE LaneMask operator>(Lanes a, Lanes b) { return {a.v > b.v}; }
 DETENT_LANES_INLINE LaneMask operator&(LaneMask a, LaneMask b) { return {a.v & b.v}; }
+DETENT_LANES_INLINE LaneMask operator!(LaneMask a) { return {~a.v}; }
 DETENT_LANES_INLINE LaneMask operator|(LaneMask a, LaneMask b) { return {a.v | b.v}; }
+
+// In each lane: b > a ? b : a, and so on. The compiler finds these instructions only where it may forget NaN and -0.
+#if defined(__AVX2__) && DETENT_FIXED
+DETENT_LANES_INLINE Lanes select(LaneMask mask, Lanes a, Lanes b) {
+  return {__builtin_ia32_blendvpd256(b.v, a.v, reinterpret_cast<LaneFloat>(mask.v))};
+}
+DETENT_LANES_INLINE bool any(LaneMask mask) {
+  return __builtin_ia32_movmskpd256(reinterpret_cast<LaneFloat>(mask.v)) != 0;
+}
+DETENT_LANES_INLINE Lanes max(Lanes a, Lanes b) { return {__builtin_ia32_maxpd256(b.v, a.v)}; }
+DETENT_LANES_INLINE Lanes min(Lanes a, Lanes b) { return {__builtin_ia32_minpd256(b.v, a.v)}; }
+#elif defined(__AVX2__) && defined(DETENT_F32)
+DETENT_LANES_INLINE Lanes select(LaneMask mask, Lanes a, Lanes b) {
+  return {__builtin_ia32_blendvps(b.v, a.v, reinterpret_cast<LaneFloat>(mask.v))};
+}
+DETENT_LANES_INLINE bool any(LaneMask mask) {
+  return __builtin_ia32_movmskps(reinterpret_cast<LaneFloat>(mask.v)) != 0;
+}
+DETENT_LANES_INLINE Lanes max(Lanes a, Lanes b) { return {__builtin_ia32_maxps(b.v, a.v)}; }
+DETENT_LANES_INLINE Lanes min(Lanes a, Lanes b) { return {__builtin_ia32_minps(b.v, a.v)}; }
+#else
 DETENT_LANES_INLINE Lanes select(LaneMask mask, Lanes a, Lanes b) { return {mask.v ? a.v : b.v}; }
 DETENT_LANES_INLINE bool any(LaneMask mask) { return (mask.v[0] | mask.v[1] | mask.v[2] | mask.v[3]) != 0; }
 DETENT_LANES_INLINE Lanes max(Lanes a, Lanes b) { return select(b > a, b, a); }
 DETENT_LANES_INLINE Lanes min(Lanes a, Lanes b) { return select(a > b, b, a); }
+#endif
 DETENT_LANES_INLINE Lanes clamp(Lanes value, Lanes low, Lanes high) { return min(max(value, low), high); }
 
 #if DETENT_FIXED
 
-DETENT_LANES_INLINE Lanes operator-(Lanes a, int b) { return a - lanes_of(b); }
+DETENT_LANES_INLINE LaneReals operator+(LaneReals a, LaneReals b) { return {a.v + b.v}; }
+DETENT_LANES_INLINE LaneReals operator-(LaneReals a, LaneReals b) { return {a.v - b.v}; }
+DETENT_LANES_INLINE LaneReals& operator+=(LaneReals& a, LaneReals b) { return a = a + b; }
+DETENT_LANES_INLINE LaneReals& operator-=(LaneReals& a, LaneReals b) { return a = a - b; }
+DETENT_LANES_INLINE LaneReals max(LaneReals a, LaneReals b) { return {b.v > a.v ? b.v : a.v}; }
 
+/// Conversions of integers. Range: |value| < 2^51.
+DETENT_LANES_INLINE Lanes number_from(LaneInt64 value) {
+  const LaneFloat base = lanes_of(0x1.8p52).v;
+  return {reinterpret_cast<LaneFloat>(value + reinterpret_cast<LaneInt64>(base)) - base};
+}
+DETENT_LANES_INLINE LaneInt64 words_from(Lanes value) {
+  const LaneFloat base = lanes_of(0x1.8p52).v;
+  return reinterpret_cast<LaneInt64>(value.v + base) - reinterpret_cast<LaneInt64>(base);
+}
+/// Products of integers of 32 bits.
+DETENT_LANES_INLINE LaneInt64 multiplied(LaneInt64 a, LaneInt64 b) {
+  typedef int32_t Words __attribute__((vector_size(32)));
+  return reinterpret_cast<LaneInt64>(__builtin_ia32_pmuldq256(reinterpret_cast<Words>(a), reinterpret_cast<Words>(b)));
+}
+/// 2^exponent. Range: |exponent| <= 1022.
+DETENT_LANES_INLINE Lanes power_of_two(LaneInt64 exponent) {
+  return {reinterpret_cast<LaneFloat>((exponent + words_of(1023)) << 52)};
+}
+
+DETENT_LANES_INLINE LaneInt64 clamp_words(LaneInt64 value, int64_t low, int64_t high) {
+  const LaneInt64 least = words_of(low), most = words_of(high);
+  value = value < least ? least : value;
+  return value > most ? most : value;
+}
 /// value times 2^-n, rounded down. Range: 0 <= n <= 63.
-DETENT_LANES_INLINE Lanes shifted_down(Lanes value, Lanes n) {
-  const LaneUint64 sign = reinterpret_cast<LaneUint64>(lanes_of(INT64_MIN).v), by = reinterpret_cast<LaneUint64>(n.v);
-  const LaneUint64 moved = (reinterpret_cast<LaneUint64>(value.v) ^ sign) >> by;
-  return {reinterpret_cast<LaneInt64>(moved - (sign >> by))};
+DETENT_LANES_INLINE LaneInt64 shifted_down(LaneInt64 value, LaneInt64 n) {
+  const LaneUint64 sign = reinterpret_cast<LaneUint64>(words_of(INT64_MIN)), by = reinterpret_cast<LaneUint64>(n);
+  const LaneUint64 moved = (reinterpret_cast<LaneUint64>(value) ^ sign) >> by;
+  return reinterpret_cast<LaneInt64>(moved - (sign >> by));
 }
 /// In each lane the result of round_shift_64(). Range: 1 <= n <= 63.
-DETENT_LANES_INLINE Lanes round_shift_any(Lanes value, Lanes n) {
-  const LaneUint64 sign = reinterpret_cast<LaneUint64>(lanes_of(INT64_MIN).v), by = reinterpret_cast<LaneUint64>(n.v);
-  const LaneUint64 one = reinterpret_cast<LaneUint64>(lanes_of(1).v);
-  const LaneUint64 twice = (reinterpret_cast<LaneUint64>(value.v) ^ sign) >> (by - one);
-  return {reinterpret_cast<LaneInt64>(((twice + one) >> one) - (sign >> by))};
+DETENT_LANES_INLINE LaneInt64 round_shift_any(LaneInt64 value, LaneInt64 n) {
+  const LaneUint64 sign = reinterpret_cast<LaneUint64>(words_of(INT64_MIN)), by = reinterpret_cast<LaneUint64>(n);
+  const LaneUint64 one = reinterpret_cast<LaneUint64>(words_of(1));
+  const LaneUint64 twice = (reinterpret_cast<LaneUint64>(value) ^ sign) >> (by - one);
+  return reinterpret_cast<LaneInt64>(((twice + one) >> one) - (sign >> by));
 }
 /// In each lane the result of round_shift_64(). Range: |value| < 2^62, 1 <= n <= 63.
-DETENT_LANES_INLINE Lanes round_shift(Lanes value, Lanes n) {
-  const LaneUint64 bias = reinterpret_cast<LaneUint64>(lanes_of(int64_t{1} << 62).v);
-  const LaneUint64 one = reinterpret_cast<LaneUint64>(lanes_of(1).v), by = reinterpret_cast<LaneUint64>(n.v);
-  const LaneUint64 sum = reinterpret_cast<LaneUint64>(value.v) + bias + (one << (by - one));
-  return {reinterpret_cast<LaneInt64>((sum >> by) - (bias >> by))};
+DETENT_LANES_INLINE LaneInt64 round_shift(LaneInt64 value, LaneInt64 n) {
+  const LaneUint64 bias = reinterpret_cast<LaneUint64>(words_of(int64_t{1} << 62));
+  const LaneUint64 one = reinterpret_cast<LaneUint64>(words_of(1)), by = reinterpret_cast<LaneUint64>(n);
+  const LaneUint64 sum = reinterpret_cast<LaneUint64>(value) + bias + (one << (by - one));
+  return reinterpret_cast<LaneInt64>((sum >> by) - (bias >> by));
 }
 
 DETENT_LANES_INLINE Lanes held(Lanes a) { return clamp(a, lanes_of(-k_factor_max), lanes_of(k_factor_max)); }
-DETENT_LANES_INLINE Lanes product(Lanes a, Lanes b) {
-#if defined(__AVX2__)
-  typedef int32_t Halves __attribute__((vector_size(32)));
-  return {reinterpret_cast<LaneInt64>(
-      __builtin_ia32_pmuldq256(reinterpret_cast<Halves>(a.v), reinterpret_cast<Halves>(b.v)))};
-#else
-  return {((a.v << 32) >> 32) * ((b.v << 32) >> 32)};
-#endif
+DETENT_LANES_INLINE LaneProduct product(Lanes a, Lanes b) { return {a.v, b.v}; }
+DETENT_LANES_INLINE Lanes operator+(Lanes a, LaneProduct b) { return {__builtin_ia32_vfmaddpd256(b.a, b.b, a.v)}; }
+DETENT_LANES_INLINE Lanes operator-(Lanes a, LaneProduct b) { return {__builtin_ia32_vfmaddpd256(-b.a, b.b, a.v)}; }
+DETENT_LANES_INLINE Lanes operator+(LaneProduct a, Lanes b) { return b + a; }
+DETENT_LANES_INLINE Lanes operator+(LaneProduct a, LaneProduct b) { return Lanes(a) + b; }
+DETENT_LANES_INLINE Lanes operator-(LaneProduct a, LaneProduct b) { return Lanes(a) - b; }
+DETENT_LANES_INLINE Lanes& operator+=(Lanes& a, LaneProduct b) { return a = a + b; }
+DETENT_LANES_INLINE Lanes& operator-=(Lanes& a, LaneProduct b) { return a = a - b; }
+/// Rounds to an integer: to nearest, ties up.
+DETENT_LANES_INLINE Lanes rounded_down(Lanes sum) {
+  return {__builtin_ia32_roundpd256(sum.v, 9)};  // without exceptions
 }
-DETENT_LANES_INLINE Lanes rounded(Lanes sum) { return round_shift(sum, lanes_of(k_unit_frac)); }
-DETENT_LANES_INLINE Lanes whole(Lanes a) { return {a.v << k_unit_frac}; }
+DETENT_LANES_INLINE Lanes rounded(Lanes sum) { return rounded_down(sum + lanes_of(0.5)); }
+DETENT_LANES_INLINE Lanes rounded(LaneProduct a) { return rounded_down(lanes_of(0.5) + a); }
+DETENT_LANES_INLINE Lanes whole(Lanes a) { return a; }
 DETENT_LANES_INLINE Lanes times(Lanes a, Lanes b) { return rounded(product(a, b)); }
-DETENT_LANES_INLINE Lanes times_scaled(Lanes a, Lanes b, Lanes exponent) {
-  return round_shift(product(a, b), lanes_of(k_unit_frac) - exponent);
-}
-DETENT_LANES_INLINE Lanes sum_from(Lanes a, Lanes exponent) { return {a.v << (lanes_of(k_unit_frac) - exponent).v}; }
-DETENT_LANES_INLINE Lanes rounded(Lanes sum, Lanes exponent) {
-  return round_shift(sum, lanes_of(k_unit_frac) - exponent);
-}
-DETENT_LANES_INLINE Lanes times(Lanes a, const LaneScaled& b) {
-  const Lanes none = lanes_of(0), n = clamp(-b.exponent, lanes_of(1), lanes_of(63));
-  const Lanes usual = held(round_shift(product(a, b.mantissa), n));
-  const Lanes most = select(a > none, lanes_of(k_factor_max), select(none > a, lanes_of(-k_factor_max), none));
-  const LaneMask large = b.exponent > lanes_of(-1), nothing = {b.mantissa.v == none.v};
-  return select(large, select(nothing, none, most), select(lanes_of(-63) > b.exponent, none, usual));
-}
+DETENT_LANES_INLINE Lanes times(Lanes a, const LaneScaled& b) { return held(times(a, Lanes(b.value))); }
+DETENT_LANES_INLINE Lanes times_scaled(Lanes a, Lanes b, int) { return rounded(product(a, b)); }
+DETENT_LANES_INLINE Lanes sum_from(Lanes a, int) { return a; }
+DETENT_LANES_INLINE Lanes rounded(Lanes sum, int) { return rounded(sum); }
 
 class LaneBlock {
  public:
-  DETENT_LANES_INLINE void include(const Vec3<Lanes>& v, int exponent) {
+  DETENT_LANES_INLINE void include(const Vec3<LaneReals>& v, int exponent) {
     include_bits(magnitude(v.x) | magnitude(v.y) | magnitude(v.z), k_angular_velocity_power - exponent);
   }
   /// Includes all numbers at once, combined by `or`. Range: not negative.
   template <unsigned count>
-  DETENT_LANES_INLINE void include(const Lanes (&values)[count], uint32_t used) {
+  DETENT_LANES_INLINE void include(const LaneReals (&values)[count], uint32_t used) {
     LaneInt64 all = {0, 0, 0, 0};
     for (uint32_t i = 0; i < used; ++i) all |= magnitude(values[i]);
     include_bits(all, k_number_drop);
   }
-  DETENT_LANES_INLINE void settle() { shift_ = max(shift_, lengths({bits_}) + lanes_of(k_bits_power)); }
-  DETENT_LANES_INLINE Vec3<Lanes> mantissas(const Vec3<Lanes>& v, int exponent) const {
-    const Lanes n = shift_ - lanes_of(exponent);
-    return {round_shift_any(v.x, n), round_shift_any(v.y, n), round_shift_any(v.z, n)};
+  DETENT_LANES_INLINE void settle() {
+    LaneInt64 least;
+    for (int i = 0; i < 4; ++i) least[i] = bit_length_64(static_cast<uint64_t>(bits_[i]));
+    least += words_of(k_bits_power);
+    shift_ = least > shift_ ? least : shift_;
   }
-  DETENT_LANES_INLINE Lanes held(Lanes value) const { return detent::held(number(value)); }
-  DETENT_LANES_INLINE Lanes number(Lanes value) const { return shifted_down(value, shift_); }
-  DETENT_LANES_INLINE Lanes real(Lanes ulps) const { return {ulps.v << shift_.v}; }
-  DETENT_LANES_INLINE Vec3<Lanes> real(const Vec3<Lanes>& v, const LaneScaled& share, Lanes exponent) const {
-    const Lanes n = -(shift_ + share.exponent + exponent), none = lanes_of(0);
-    const LaneMask down = n > none;
-    const Lanes right = clamp(n, lanes_of(1), lanes_of(63)), left = clamp(-n, none, lanes_of(63));
+  DETENT_LANES_INLINE Vec3<Lanes> mantissas(const Vec3<LaneReals>& v, int exponent) const {
+    const LaneInt64 n = shift_ - words_of(exponent);
+    return {number_from(round_shift_any(v.x.v, n)), number_from(round_shift_any(v.y.v, n)),
+            number_from(round_shift_any(v.z.v, n))};
+  }
+  DETENT_LANES_INLINE Lanes held(LaneReals value) const {
+    return number_from(clamp_words(shifted_down(value.v, shift_), -k_factor_max, k_factor_max));
+  }
+  /// Range: the value was included.
+  DETENT_LANES_INLINE Lanes number(LaneReals value) const { return number_from(shifted_down(value.v, shift_)); }
+  DETENT_LANES_INLINE LaneReals real(Lanes ulps) const { return {words_from(ulps) << shift_}; }
+  DETENT_LANES_INLINE Vec3<LaneReals> real(const Vec3<Lanes>& v, const LaneShare& share, LaneInt32 exponent) const {
+    const LaneInt64 mantissa = __builtin_convertvector(share.mantissa, LaneInt64);
+    const LaneInt64 n = -(shift_ + __builtin_convertvector(share.exponent + exponent, LaneInt64)), none = words_of(0);
+    const LaneInt64 down = n > none, right = clamp_words(n, 1, 63), left = clamp_words(none - n, 0, 63);
     const auto part = [&](Lanes value) {
-      const Lanes whole_product = product(value, share.mantissa);
-      return select(down, round_shift(whole_product, right), Lanes{whole_product.v << left.v});
+      const LaneInt64 product = multiplied(words_from(value), mantissa);
+      return LaneReals{down ? round_shift(product, right) : product << left};
     };
     return {part(v.x), part(v.y), part(v.z)};
   }
-  DETENT_LANES_INLINE Vec3<Lanes> real(const Vec3<Lanes>& v, const LaneScaled& share, int exponent) const {
-    return real(v, share, lanes_of(exponent));
+  DETENT_LANES_INLINE Vec3<LaneReals> real(const Vec3<Lanes>& v, const LaneShare& share, int exponent) const {
+    return real(v, share, LaneInt32{exponent, exponent, exponent, exponent});
   }
   DETENT_LANES_INLINE Lanes converted(Lanes ulps, const LaneBlock& from, int exponent) const {
-    const Lanes n = from.shift_ + lanes_of(exponent) - shift_, none = lanes_of(0);
-    const Lanes right = clamp(-n, lanes_of(1), lanes_of(63)), left = clamp(n, none, lanes_of(31));
-    return detent::held(select(none > n, round_shift(ulps, right), Lanes{ulps.v << left.v}));
+    const LaneInt64 n = clamp_words(from.shift_ + words_of(exponent) - shift_, -63, 31);
+    return detent::held(times(ulps, power_of_two(n)));
   }
   template <unsigned count>
   DETENT_LANES_INLINE void coarsen(Lanes (&parts)[count]) {
-    LaneInt64 all = {0, 0, 0, 0};
-    for (const Lanes& part : parts) all |= magnitude(part);
-    const Lanes n = max(lengths({all}) - lanes_of(k_wrench_bits), lanes_of(0));
-    if (!any(n > lanes_of(0))) return;
-    for (Lanes& part : parts) part = select(n > lanes_of(0), round_shift_any(part, max(n, lanes_of(1))), part);
+    Lanes most = lanes_of(0);
+    for (const Lanes& part : parts) most = max(most, max(part, -part));
+    // The bit length of an integer is the exponent of its double plus 1.
+    const LaneInt64 lengths = (reinterpret_cast<LaneInt64>(most.v) >> 52) - words_of(1022);
+    const LaneMask long_ = most > lanes_of(static_cast<double>((int64_t{1} << k_wrench_bits) - 1));
+    if (!any(long_)) return;
+    const LaneInt64 n = (lengths - words_of(k_wrench_bits)) & long_.v;
+    const Lanes power = power_of_two(words_of(0) - n);
+    for (Lanes& part : parts) part = times(part, power);
     shift_ += n;
   }
 
  private:
-  DETENT_LANES_INLINE static LaneInt64 magnitude(Lanes a) { return a.v < 0 ? -a.v : a.v; }
-  DETENT_LANES_INLINE static Lanes lengths(Lanes all) {
-    Lanes result;
-    for (int i = 0; i < 4; ++i) result.v[i] = bit_length_64(static_cast<uint64_t>(all.v[i]));
-    return result;
-  }
+  DETENT_LANES_INLINE static LaneInt64 magnitude(LaneReals a) { return a.v < 0 ? -a.v : a.v; }
   DETENT_LANES_INLINE void include_bits(LaneInt64 all, int drop) {
     bits_ |= reinterpret_cast<LaneInt64>(reinterpret_cast<LaneUint64>(all) >> static_cast<uint64_t>(drop));
   }
   LaneInt64 bits_ = {0, 0, 0, 0};
-  Lanes shift_ = lanes_of(k_shift_min);
+  LaneInt64 shift_ = words_of(k_shift_min);
 };
 
 #else
@@ -196,7 +280,8 @@ class LaneBlock {
   DETENT_LANES_INLINE Lanes held(Lanes value) const { return value; }
   DETENT_LANES_INLINE Lanes number(Lanes value) const { return value; }
   DETENT_LANES_INLINE Lanes real(Lanes ulps) const { return ulps; }
-  DETENT_LANES_INLINE Vec3<Lanes> real(const Vec3<Lanes>& v, Lanes share, int) const {
+  template <class Exponent>
+  DETENT_LANES_INLINE Vec3<Lanes> real(const Vec3<Lanes>& v, Lanes share, Exponent) const {
     return {times(v.x, share), times(v.y, share), times(v.z, share)};
   }
   DETENT_LANES_INLINE Lanes converted(Lanes value, const LaneBlock&, int exponent) const {
@@ -208,21 +293,13 @@ class LaneBlock {
 
 #endif
 
-DETENT_LANES_INLINE Lanes dot(const Vec3<Lanes>& a, const Vec3<Lanes>& b) {
+/// The Units of lanes are already rounded.
+DETENT_LANES_INLINE const Vec3<LaneUnits>& fine(const Vec3<LaneUnits>& v) { return v; }
+DETENT_LANES_INLINE Lanes dot(const Vec3<Lanes>& a, const Vec3<LaneUnits>& b) {
   return product(a.x, b.x) + product(a.y, b.y) + product(a.z, b.z);
 }
 /// Rounds sums of products to factors. Range: each rounded value must fit a factor.
-DETENT_LANES_INLINE Vec3<Lanes> rounded(Lanes x, Lanes y, Lanes z) {
-#if DETENT_FIXED
-  const auto part = [](Lanes sum) {
-    const LaneUint64 half = reinterpret_cast<LaneUint64>(lanes_of(int64_t{1} << (k_unit_frac - 1)).v);
-    return Lanes{reinterpret_cast<LaneInt64>((reinterpret_cast<LaneUint64>(sum.v) + half) >> k_unit_frac)};
-  };
-  return {part(x), part(y), part(z)};
-#else
-  return {x, y, z};
-#endif
-}
+DETENT_LANES_INLINE Vec3<Lanes> rounded(Lanes x, Lanes y, Lanes z) { return {rounded(x), rounded(y), rounded(z)}; }
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -45,10 +45,10 @@ void part(const StepSettings& settings, ContactWork& contact, BodyWork& work_a, 
   }
   for (uint32_t i = 0; i < normals.count; ++i) {
     const Factor gap = held(normals.speed(i));
-    if (!(gap < Factor(k_no_ulps))) continue;
-    const Factor half = held(times(gap, Unit(0.5)));
-    normals.change(i, times(max(half, Factor(-most)), contact.inverse_mass[i]));
+    normals.may[i] = gap < Factor(k_no_ulps);
+    normals.wanted[i] = max(Factor(times(gap, Unit(0.5))), Factor(-most));
   }
+  normals.solve_rows(Unit(1.0));
   Ulps along, about_first, about_second;
   normals.put(along, about_first, about_second);
   MovedBody a(work_a), b(work_b);

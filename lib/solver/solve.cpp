@@ -67,7 +67,8 @@ uint32_t integrate_positions(const SolverBodies& bodies, Span<const uint32_t> is
   return clamped;
 }
 
-constexpr int k_rebound_sweeps_max = 32;
+/// Each round leaves a 33rd of the last one's error, due to k_rigid_softness.
+constexpr uint32_t k_rebound_rounds = 5;
 
 /// Applies Newton's law of impact (restitution) to points that approached faster than the threshold and had a normal
 /// impulse.
@@ -77,33 +78,25 @@ void rebound(ContactSolver<One>& solver) {
   Block room;
   const uint32_t count = contact.state.point_count;
   room.include(contact.state.normal_impulse, count);
-  for (uint32_t i = 0; i < count; ++i) {
-    const Real approach[] = {contact.approach[i]};
-    room.include(approach, 1);
-  }
+  room.include(contact.approach, count);
   const PairMotion<One> motion = solver.relative_motion(room);
   Normals<One> normals(contact, motion.block, NormalMotion<One>(motion, contact));
-  bool rebounds[k_manifold_points_max] = {};
-  // Points that rebound together share the impulse, which is found by sweeps: an impulse at a single point would rotate
-  // the body into the other points.
-  bool settled = false;
-  for (int sweep = 0; sweep < k_rebound_sweeps_max && !settled; ++sweep) {
-    settled = true;
+  // Points that rebound together share the impulse: an impulse at a single point would rotate the body into the other
+  // points.
+  for (uint32_t round = 0; round < k_rebound_rounds; ++round) {
     for (uint32_t i = 0; i < count; ++i) {
-      if (contact.approach[i] > -contact.rebound_min || contact.impulse_max[i] == k_zero) continue;
-      const Ulps residual = normals.speed(i) + motion.block.held(multiply(contact.approach[i], contact.restitution));
-      const Ulps impulse = normals.impulse[i], little = motion.block.held(scale_by_power(contact.approach[i], -20));
-      normals.change(i, times(held(residual), contact.inverse_mass[i]));
-      settled = settled && (count == 1 || max(residual, -residual) <= -little || normals.impulse[i] == impulse);
-      rebounds[i] = true;
+      normals.may[i] = contact.approach[i] <= -contact.rebound_min && contact.impulse_max[i] != k_zero;
+      normals.wanted[i] =
+          held(normals.speed(i) + motion.block.held(multiply(contact.approach[i], contact.restitution)));
     }
+    normals.solve_rows(Unit(1.0));
   }
   Ulps along, about_first, about_second;
   normals.put(along, about_first, about_second);
   apply_normal<One>(contact, motion.block, along, about_first, about_second, solver.a, solver.b);
   for (uint32_t i = 0; i < count; ++i) {
     // The point separates: no impulse is carried over to the next tick.
-    if (rebounds[i]) contact.state.normal_impulse[i] = k_zero;
+    if (normals.may[i]) contact.state.normal_impulse[i] = k_zero;
   }
 }
 
@@ -123,29 +116,58 @@ bool has_settled(const SolverBodies& bodies, Span<const uint32_t> island, Real e
   return true;
 }
 
-/// One pass over contacts in their order. Calls `one` with a contact, or `four` with four contacts that may be solved
-/// at once.
-template <class TakeOne, class TakeFour>
-void pass_in_order(const StepSettings& settings, const SolverBodies& bodies, Span<const ContactOrder> order,
-                   Span<ContactWork> contacts, const TakeOne& one, const TakeFour& four) {
-  for (uint32_t i = 0; i < order.count;) {
-    const ContactOrder& first = order[i];
-    if (settings.lanes && i + 4 <= order.count && first.colour != k_colour_overflow) {
-      const ContactOrder& last = order[i + 3];
-      if (first.colour == last.colour && first.kind == last.kind) {
-        four(settings, bodies,
-             {&contacts[first.contact], &contacts[order[i + 1].contact], &contacts[order[i + 2].contact],
-              &contacts[last.contact]});
-        i += 4;
-        continue;
-      }
+/// Marks the contacts of the island that are solved four at once: those that follow each other with the same colour and
+/// kind. Puts them into lanes.
+void put_all_in_lanes(const StepSettings& settings, const SolverBodies& bodies, const IslandContacts& all) {
+  if (!uses_lanes(settings)) return;
+  for (uint32_t i = 0; i + 4 <= all.order.count;) {
+    ContactOrder* const four = all.order.data + i;
+    if (four[0].colour != four[3].colour || four[0].kind != four[3].kind || !may_be_in_four(four[0])) {
+      ++i;
+      continue;
     }
-    ContactWork& contact = contacts[first.contact];
+    four[0].kind |= k_first_of_four;
+    for (int k = 1; k < 4; ++k) four[k].kind |= k_rest_of_four;
+    i += 4;
+  }
+  share(settings.team, all.order.count, k_contacts_shared, [&](uint32_t first, uint32_t last) {
+    for (uint32_t i = first; i < last; ++i) {
+      if ((all.order[i].kind & k_first_of_four) != 0)
+        put_in_lanes(bodies, all.contacts, &all.order[i], all.lanes[i / 4]);
+    }
+  });
+}
+
+void take_all_from_lanes(const StepSettings& settings, const IslandContacts& all) {
+  if (!uses_lanes(settings)) return;
+  share(settings.team, all.order.count, k_contacts_shared, [&](uint32_t first, uint32_t last) {
+    for (uint32_t i = first; i < last; ++i) {
+      if ((all.order[i].kind & k_first_of_four) != 0) take_from_lanes(all.lanes[i / 4], all.contacts);
+    }
+  });
+}
+
+/// What a pass does with a contact, and with the lanes of four contacts.
+struct ContactPass {
+  void (*one)(ContactSolver<One>& contact);
+  void (*four)(const StepSettings& settings, const SolverBodies& bodies, LaneSpace& lanes);
+};
+
+/// One pass over contacts in their order, from `first` to `last`. Of the groups of four, those that begin in this range
+/// take part.
+void pass_in_order(const StepSettings& settings, const SolverBodies& bodies, const IslandContacts& all, uint32_t first,
+                   uint32_t last, const ContactPass& pass) {
+  for (uint32_t i = first; i < last; ++i) {
+    const ContactOrder& entry = all.order[i];
+    if (uses_lanes(settings) && entry.kind > k_kind_mask) {
+      if ((entry.kind & k_first_of_four) != 0) pass.four(settings, bodies, all.lanes[i / 4]);
+      continue;
+    }
+    ContactWork& contact = all.contacts[entry.contact];
     const uint32_t a = contact.state.body_a, b = contact.state.body_b;
     SolvedBody body_a(bodies.motions[a], bodies.work[a]), body_b(bodies.motions[b], bodies.work[b]);
     ContactSolver<One> solver = {settings, contact, body_a, body_b};
-    one(solver);
-    ++i;
+    pass.one(solver);
   }
 }
 
@@ -162,22 +184,19 @@ uint32_t colour_count(Span<const ContactOrder> order) {
   return low;
 }
 
-/// One pass over all contacts of an island, as pass_in_order(). Threads share the contacts of each colour: these have
-/// no dynamic body in common.
-template <class TakeOne, class TakeFour>
-void pass(const StepSettings& settings, const SolverBodies& bodies, Span<const ContactOrder> order,
-          Span<ContactWork> contacts, const TakeOne& one, const TakeFour& four) {
+/// One pass over all contacts of an island. Threads share the contacts of each colour: these have no dynamic body in
+/// common.
+void pass_over(const StepSettings& settings, const SolverBodies& bodies, const IslandContacts& all,
+               const ContactPass& pass) {
   if (settings.team == nullptr) {
-    pass_in_order(settings, bodies, order, contacts, one, four);
+    pass_in_order(settings, bodies, all, 0, all.order.count, pass);
     return;
   }
-  for (uint32_t i = 0; i < order.count;) {
-    const Span<const ContactOrder> rest = {order.data + i, order.count - i};
-    const uint32_t count = colour_count(rest);
-    Team* const team = rest[0].colour == k_colour_overflow ? nullptr : settings.team;
-    share(team, count, k_contacts_shared, [&](uint32_t first, uint32_t last) {
-      pass_in_order(settings, bodies, {rest.data + first, last - first}, contacts, one, four);
-    });
+  for (uint32_t i = 0; i < all.order.count;) {
+    const uint32_t count = colour_count({all.order.data + i, all.order.count - i});
+    Team* const team = all.order[i].colour == k_colour_overflow ? nullptr : settings.team;
+    share(team, count, k_contacts_shared,
+          [&](uint32_t first, uint32_t last) { pass_in_order(settings, bodies, all, i + first, i + last, pass); });
     i += count;
   }
 }
@@ -193,13 +212,23 @@ void place_kinematic(const BodyProperties& properties, const BodyMotion& motion,
 }
 
 /// Recomputes the responses of contacts whose bodies have joints, so that contacts and joints use the same inertias.
-void renew_responses(const SolverBodies& bodies, const JointStage& stage, Span<const ContactOrder> order,
-                     Span<ContactWork> contacts) {
-  for (const ContactOrder& entry : order) {
-    ContactWork& contact = contacts[entry.contact];
+void renew_responses(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
+                     const IslandContacts& all) {
+  uint32_t left = 0;  // contacts of the current four that follow
+  bool renewed = false;
+  for (uint32_t i = 0; i < all.order.count; ++i) {
+    ContactWork& contact = all.contacts[all.order[i].contact];
     const uint32_t a = contact.state.body_a, b = contact.state.body_b;
-    if (has_renewed_inverse_inertia(bodies.work[a], stage) || has_renewed_inverse_inertia(bodies.work[b], stage))
+    if ((all.order[i].kind & k_first_of_four) != 0) {
+      left = 4;
+      renewed = false;
+    }
+    if (has_renewed_inverse_inertia(bodies.work[a], stage) || has_renewed_inverse_inertia(bodies.work[b], stage)) {
       renew_response(bodies.work[a].inverse_inertia, bodies.work[b].inverse_inertia, contact);
+      renewed = true;
+    }
+    if (uses_lanes(settings) && left != 0 && --left == 0 && renewed)
+      renew_lanes(bodies, all.contacts, all.lanes[(i - 3) / 4]);
   }
 }
 
@@ -208,7 +237,7 @@ void renew_responses(const SolverBodies& bodies, const JointStage& stage, Span<c
 #if DETENT_QUADS
 bool has_lanes() {
 #if defined(__x86_64__)
-  return has_avx2();
+  return has_avx2_and_fma();
 #else
   return true;
 #endif
@@ -227,19 +256,25 @@ bool has_kinematic_contact(Span<const BodyProperties> properties, Span<const Con
 }
 
 SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island,
-                 Span<const ContactOrder> order, Span<ContactWork> contacts, const IslandJoints& joints) {
+                 const IslandContacts& all, const IslandJoints& joints) {
   using Solver = ContactSolver<One>;
+  constexpr ContactPass k_warm_start = {[](Solver& contact) { contact.warm_start(); }, warm_start_lanes};
+  constexpr ContactPass k_solve_normals = {[](Solver& contact) { contact.solve_normals(); }, solve_normals_lanes};
+  constexpr ContactPass k_relax = {[](Solver& contact) { contact.relax(); }, relax_lanes};
+  constexpr ContactPass k_rebound = {rebound, nullptr};
   SolveCount count;
+  const Span<const ContactOrder> order = all.order;
+  put_all_in_lanes(settings, bodies, all);
   Real elapsed = 0.0;
   const Real enough = scale_by_power(settings.gravity_size * settings.time, -static_cast<int>(settings.convergence));
   const Real enough_for_joints = scale_by_power(settings.gravity_size * settings.time, -2);
   /// Sweeps over the contacts until no velocity changes by more than `enough`, or until the number of iterations is
   /// reached.
-  const auto sweep = [&](const auto& one, const auto& four) {
+  const auto sweep = [&](const ContactPass& of) {
     for (uint32_t iteration = 1;; ++iteration) {
       const bool last = iteration == settings.iterations;
       if (!last) remember(bodies, island);
-      pass(settings, bodies, order, contacts, one, four);
+      pass_over(settings, bodies, all, of);
       if (last) return;
       if (has_settled(bodies, island, enough)) {
         count.sweeps_saved += settings.iterations - iteration;
@@ -248,40 +283,36 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
     }
   };
   /// The given number of sweeps over the contacts, after their bodies' velocities are stored.
-  const auto sweep_times = [&](uint32_t times, const auto& one, const auto& four) {
+  const auto sweep_times = [&](uint32_t times, const ContactPass& of) {
     remember(bodies, island);
-    for (uint32_t left = times; left > 0; --left) pass(settings, bodies, order, contacts, one, four);
+    for (uint32_t left = times; left > 0; --left) pass_over(settings, bodies, all, of);
   };
-  const bool kinematic = !DETENT_TASKS || has_kinematic_contact(bodies.properties, order, contacts);
+  const bool kinematic = !DETENT_TASKS || has_kinematic_contact(bodies.properties, order, all.contacts);
   for (uint32_t substep = 0; substep < settings.substeps; ++substep) {
     if (joints.code != nullptr) {
       joints.code->begin(settings, bodies, *joints.island, elapsed, *joints.stage);
-      renew_responses(bodies, *joints.stage, order, contacts);
+      renew_responses(settings, bodies, *joints.stage, all);
     }
     count.clamped += share_sum(settings.team, island, k_bodies_shared, [&](Span<const uint32_t> slots) {
       return integrate_velocities(bodies, slots, substep == 0, order.count != 0);
     });
-    if (substep == 0)
-      pass(
-          settings, bodies, order, contacts, [](Solver& contact) { contact.warm_start(); }, warm_start_lanes);
+    if (substep == 0) pass_over(settings, bodies, all, k_warm_start);
     for (const ContactOrder& entry : kinematic ? order : order.first(0)) {
-      const ContactWork& contact = contacts[entry.contact];
+      const ContactWork& contact = all.contacts[entry.contact];
       if (contact.static_pair == 0) continue;
       const uint32_t a = contact.state.body_a, b = contact.state.body_b;
       place_kinematic(bodies.properties[a], bodies.motions[a], elapsed, bodies.work[a]);
       place_kinematic(bodies.properties[b], bodies.motions[b], elapsed, bodies.work[b]);
     }
     if (joints.code == nullptr) {
-      sweep([](Solver& contact) { contact.solve_normals(); }, solve_normals_lanes);
+      sweep(k_solve_normals);
     } else {
       const Island& own = *joints.island;
       JointStage& stage = *joints.stage;
       uint32_t& undecided = count.undecided;
       count.clamped += joints.code->solve(settings, bodies, own, elapsed, stage, undecided);
       for (uint32_t round = 0; round < k_joint_rounds && order.count != 0; ++round) {
-        sweep_times(
-            round == 0 ? settings.iterations + 1 : 1, [](Solver& contact) { contact.solve_normals(); },
-            solve_normals_lanes);
+        sweep_times(round == 0 ? settings.iterations + 1 : 1, k_solve_normals);
         if (has_settled(bodies, island, enough)) break;
         const bool last = has_settled(bodies, island, enough_for_joints);
         count.clamped += joints.code->solve_again(settings, bodies, own, elapsed, enough, stage, undecided);
@@ -293,21 +324,21 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
       return integrate_positions(bodies, slots, settings.time);
     });
     if (joints.code == nullptr) {
-      sweep([](Solver& contact) { contact.relax(); }, relax_lanes);
+      sweep(k_relax);
     } else {
       count.clamped += joints.code->shift(bodies, *joints.island, *joints.stage);
-      sweep_times(
-          settings.iterations, [](Solver& contact) { contact.relax(); }, relax_lanes);
+      sweep_times(settings.iterations, k_relax);
       count.clamped +=
           joints.code->end(settings, bodies, *joints.island, elapsed, enough, *joints.stage, count.undecided);
     }
     elapsed += settings.time;
   }
-  if (joints.code != nullptr) renew_responses(bodies, *joints.stage, order, contacts);
+  take_all_from_lanes(settings, all);
   StepSettings one_by_one = settings;
   one_by_one.lanes = false;
-  pass(one_by_one, bodies, order, contacts, rebound, relax_lanes);
-  if (settings.post_stabilises) count.clamped += post_stabilise(settings, bodies, island, order, contacts);
+  if (joints.code != nullptr) renew_responses(one_by_one, bodies, *joints.stage, all);
+  pass_over(one_by_one, bodies, all, k_rebound);
+  if (settings.post_stabilises) count.clamped += post_stabilise(settings, bodies, island, order, all.contacts);
   return count;
 }
 

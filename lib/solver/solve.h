@@ -26,6 +26,14 @@ struct IslandJoints {
   JointStage* stage = nullptr;
 };
 
+/// The contacts of an island in their order, and the work space of those that are solved four at once: that of
+/// order[i] to order[i + 3] is lanes[i / 4].
+struct IslandContacts {
+  Span<ContactOrder> order;
+  Span<ContactWork> contacts;
+  Span<LaneSpace> lanes;
+};
+
 /// Whether any of the contacts is with a kinematic body.
 bool has_kinematic_contact(Span<const BodyProperties> properties, Span<const ContactOrder> order,
                            Span<const ContactWork> contacts);
@@ -35,7 +43,7 @@ bool has_kinematic_contact(Span<const BodyProperties> properties, Span<const Con
 /// over the contacts in the given order, in velocity units. `settings` has the island's substeps.
 /// Source: Macklin and others, "Small Steps in Physics Simulation", 2019; Catto, "Solver2D", 2024 (soft step).
 SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island,
-                 Span<const ContactOrder> order, Span<ContactWork> contacts, const IslandJoints& joints);
+                 const IslandContacts& all, const IslandJoints& joints);
 
 /// Moves an island without contacts. The displacement is exact for constant acceleration. The rotation of each body is
 /// computed in four steps per substep (rotate_freely() in angular_velocity.h). Returns the number of values that were

@@ -24,7 +24,7 @@ DETENT_LANES_INLINE void clamp_lane(Lanes (&v)[2], Lanes limit, int lane) {
 /// Clamps v to the circle of radius `limit` in each lane. Only few contacts slide, so their lanes are processed one by
 /// one.
 DETENT_LANES_INLINE void clamp_to_circle(Lanes (&v)[2], Lanes limit) {
-  const Lanes none = lanes_of(0);
+  const Lanes none = lanes_of(LaneNumber{0});
   const Lanes size = select(none > v[0], -v[0], v[0]) + select(none > v[1], -v[1], v[1]);
   const LaneMask out = size > limit;
   if (!any(out)) return;
@@ -35,7 +35,7 @@ DETENT_LANES_INLINE void clamp_to_circle(Lanes (&v)[2], Lanes limit) {
 
 namespace {
 
-using Contacts = ContactWork* const (&)[4];
+using Contacts = const ContactWork* const (&)[4];
 
 /// Words of ContactWork, beginning with a given member.
 template <unsigned count>
@@ -50,125 +50,70 @@ struct Words {
       : words({start(from[0], offset), start(from[1], offset), start(from[2], offset), start(from[3], offset)}),
         first(offset) {}
   DETENT_LANES_INLINE uint32_t index(uint32_t offset) const { return (offset - first) / 4; }
-  DETENT_LANES_INLINE Lanes unit(uint32_t offset, uint32_t i = 0) const { return words.unit(index(offset) + i); }
-  DETENT_LANES_INLINE LaneExponent exponent(uint32_t offset) const { return words.exponent(index(offset)); }
-  DETENT_LANES_INLINE LaneMask flag(uint32_t offset, uint32_t i = 0) const { return words.flag(index(offset) + i); }
-  DETENT_LANES_INLINE Vec3<Lanes> vector(uint32_t offset) const {
-    return {unit(offset), unit(offset, 1), unit(offset, 2)};
+  DETENT_LANES_INLINE LaneUnits unit(uint32_t offset) const { return words.unit(index(offset)); }
+  DETENT_LANES_INLINE LaneInt32 word(uint32_t offset) const { return words.word[index(offset)]; }
+  DETENT_LANES_INLINE Vec3<LaneUnits> vector(uint32_t offset) const {
+    return {unit(offset), unit(offset + 4), unit(offset + 8)};
   }
-  DETENT_LANES_INLINE LaneScaled scaled(uint32_t offset, uint32_t i = 0) const {
-    return words.scaled(index(offset) + i * static_cast<uint32_t>(sizeof(Scaled) / 4));
-  }
+  DETENT_LANES_INLINE LaneScaled scaled(uint32_t offset) const { return words.scaled(index(offset)); }
+  DETENT_LANES_INLINE LaneShare share(uint32_t offset) const { return words.share(index(offset)); }
+  /// Reads Units that stand for their value times 2^exponent.
   template <unsigned used>
-  DETENT_LANES_INLINE void units(uint32_t offset, Lanes (&to)[used]) const {
+  DETENT_LANES_INLINE void units(uint32_t offset, LaneUnits (&to)[used],
+                                 LaneInt32 exponent = LaneInt32{0, 0, 0, 0}) const {
     DETENT_UNROLL
-    for (uint32_t i = 0; i < used; ++i) to[i] = unit(offset, i);
+    for (uint32_t i = 0; i < used; ++i) to[i] = words.unit(index(offset) + i, exponent);
   }
 };
 #define DETENT_AT(member) static_cast<uint32_t>(__builtin_offsetof(ContactWork, member))
 
-DETENT_LANES_INLINE Real* reals_at(ContactWork* contact, uint32_t offset) {
-  return reinterpret_cast<Real*>(reinterpret_cast<uint8_t*>(contact) + offset);
-}
-DETENT_LANES_INLINE void read_reals_at(Contacts from, uint32_t offset, Lanes (&to)[4]) {
-  read_reals(
-      {reals_at(from[0], offset), reals_at(from[1], offset), reals_at(from[2], offset), reals_at(from[3], offset)}, to);
-}
-DETENT_LANES_INLINE Lanes read_real_at(Contacts from, uint32_t offset) {
-  return read_real(
-      {reals_at(from[0], offset), reals_at(from[1], offset), reals_at(from[2], offset), reals_at(from[3], offset)});
-}
-DETENT_LANES_INLINE void write_reals_at(const Lanes (&from)[4], Contacts to, uint32_t offset) {
-  write_reals(from,
-              {reals_at(to[0], offset), reals_at(to[1], offset), reals_at(to[2], offset), reals_at(to[3], offset)});
-}
-
-static_assert(__builtin_offsetof(ContactState, normal_impulse) + 4 * sizeof(Real) <= sizeof(ContactState));
-static_assert(DETENT_AT(angular_impulse) == DETENT_AT(friction_impulse) + 2 * sizeof(Real));
-
-DETENT_LANES_INLINE void read_contact(Contacts from, LaneContact& to) {
-  const Words<56> words(from, DETENT_AT(normal));
-  to.normal = words.vector(DETENT_AT(normal));
-  to.tangent[0] = words.vector(DETENT_AT(tangent[0]));
-  to.tangent[1] = words.vector(DETENT_AT(tangent[1]));
-  to.moment_a = words.vector(DETENT_AT(moment_a));
-  to.moment_b = words.vector(DETENT_AT(moment_b));
-  to.unit_a = words.unit(DETENT_AT(unit_a));
-  to.unit_b = words.unit(DETENT_AT(unit_b));
-  DETENT_UNROLL
-  for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
-    words.units(DETENT_AT(coupling) + 16 * i, to.coupling[i]);
-    to.apart[i] = words.flag(DETENT_AT(apart), i);
+DETENT_LANES_INLINE void read_rows(Contacts from, LaneContact& to) {
+  {
+    const Words<56> words(from, DETENT_AT(normal));
+    to.normal = words.vector(DETENT_AT(normal));
+    to.tangent[0] = words.vector(DETENT_AT(tangent[0]));
+    to.tangent[1] = words.vector(DETENT_AT(tangent[1]));
+    to.moment_a = words.vector(DETENT_AT(moment_a));
+    to.moment_b = words.vector(DETENT_AT(moment_b));
+    to.unit_a = words.unit(DETENT_AT(unit_a));
+    to.unit_b = words.unit(DETENT_AT(unit_b));
+    for (uint32_t i = 0; i < k_manifold_points_max; ++i)
+      words.units(DETENT_AT(coupling) + 16 * i, to.coupling[i], words.word(DETENT_AT(coupling_exponent)));
+#if DETENT_FIXED
+    to.coupling_power = LaneWords<4>::power(24 - words.word(DETENT_AT(coupling_exponent)));
+    to.coupling_step = LaneWords<4>::power(words.word(DETENT_AT(coupling_exponent)) - 24);
+#endif
+    to.static_pair = words.word(DETENT_AT(static_pair)) != 0;
+    words.units(DETENT_AT(x), to.x);
+    words.units(DETENT_AT(y), to.y);
+    words.units(DETENT_AT(inverse_mass), to.inverse_mass);
+    to.inverse_mass_a = words.share(DETENT_AT(inverse_mass_a));
+    to.inverse_mass_b = words.share(DETENT_AT(inverse_mass_b));
   }
-  to.coupling_exponent = words.exponent(DETENT_AT(coupling_exponent));
-  to.static_pair = words.flag(DETENT_AT(static_pair));
-  words.units(DETENT_AT(x), to.x);
-  words.units(DETENT_AT(y), to.y);
-  words.units(DETENT_AT(inverse_mass), to.inverse_mass);
-  to.inverse_mass_a = words.scaled(DETENT_AT(inverse_mass_a));
-  to.inverse_mass_b = words.scaled(DETENT_AT(inverse_mass_b));
-  to.state.point_count = from[0]->state.point_count;
-  to.angular_rows = from[0]->angular_rows;
-  read_reals_at(from, DETENT_AT(state.normal_impulse), to.state.normal_impulse);
-  read_reals_at(from, DETENT_AT(impulse_max), to.impulse_max);
-}
-
-DETENT_LANES_INLINE void read_gaps(Contacts from, LaneContact& to) {
-  read_reals_at(from, DETENT_AT(separation), to.separation);
-  to.push_max = read_real_at(from, DETENT_AT(push_max));
-}
-
-DETENT_LANES_INLINE void read_friction(Contacts from, LaneContact& to) {
   const Words<DETENT_FIXED ? 44 : 36> words(from, DETENT_AT(middle_a));
   to.middle_a = words.vector(DETENT_AT(middle_a));
   to.middle_b = words.vector(DETENT_AT(middle_b));
-  DETENT_UNROLL
-  for (int i = 0; i < 7; ++i) {
-    for (int k = 0; k < 3; ++k)
-      to.response[3 * i + k] = words.unit(DETENT_AT(response), static_cast<uint32_t>(3 * i + k));
-  }
-  to.response_exponent = words.exponent(DETENT_AT(response_exponent));
+  words.units(DETENT_AT(response), to.response, words.word(DETENT_AT(response_exponent)));
   words.units(DETENT_AT(friction_mass), to.friction_mass);
   to.friction = words.scaled(DETENT_AT(friction));
   to.twist_arm = words.scaled(DETENT_AT(twist_arm));
   to.rolling_arm = words.scaled(DETENT_AT(rolling_arm));
-  for (uint32_t i = 0; i < 3; ++i) to.angular_mass[i] = words.scaled(DETENT_AT(angular_mass), i);
-  Lanes impulses[4];
-  read_reals_at(from, DETENT_AT(friction_impulse), impulses);
-  to.friction_impulse[0] = impulses[0];
-  to.friction_impulse[1] = impulses[1];
-  to.angular_impulse[0] = impulses[2];
-  to.angular_impulse[1] = impulses[3];
-  to.angular_impulse[2] = read_real_at(from, DETENT_AT(angular_impulse[2]));
+  for (uint32_t i = 0; i < 3; ++i)
+    to.angular_mass[i] = words.scaled(DETENT_AT(angular_mass) + i * static_cast<uint32_t>(sizeof(Scaled)));
 }
 
-DETENT_LANES_INLINE void write_normals(const LaneContact& from, Contacts to) {
-  write_reals_at(from.state.normal_impulse, to, DETENT_AT(state.normal_impulse));
-  write_reals_at(from.impulse_max, to, DETENT_AT(impulse_max));
-}
-
-DETENT_LANES_INLINE void write_solved(const LaneContact& from, Contacts to) {
-  write_normals(from, to);
-  LaneInt32 words[4];
-  DETENT_UNROLL
-  for (int i = 0; i < 4; ++i) {
-#if DETENT_FIXED
-    words[i] = __builtin_convertvector(from.apart[i].v, LaneInt32) & 1;
-#else
-    words[i] = from.apart[i].v & 1;
-#endif
+DETENT_LANES_INLINE void read_inverse_inertias(const SolverBodies& bodies, LaneContact& to) {
+  for (int end = 0; end < 2; ++end) {
+    const auto of = [&](int k) {
+      return reinterpret_cast<const uint8_t*>(&bodies.work[to.body[end][k]].inverse_inertia);
+    };
+    const LaneWords<12> words({of(0), of(1), of(2), of(3)});
+    LaneInverseInertia& inverse_inertia = to.inverse_inertia[end];
+    DETENT_UNROLL
+    for (uint32_t i = 0; i < 3; ++i)
+      inverse_inertia.row[i] = {words.fine_unit(3 * i), words.fine_unit(3 * i + 1), words.fine_unit(3 * i + 2)};
+    inverse_inertia.exponent = words.word[9];
   }
-  write_words(words, {to[0]->apart, to[1]->apart, to[2]->apart, to[3]->apart});
-}
-
-DETENT_LANES_INLINE void write_relaxed(const LaneContact& from, Contacts to) {
-  write_normals(from, to);
-  write_reals_at({from.friction_impulse[0], from.friction_impulse[1], from.angular_impulse[0], from.angular_impulse[1]},
-                 to, DETENT_AT(friction_impulse));
-  if (from.angular_rows != 3) return;
-  write_real(from.angular_impulse[2],
-             {reals_at(to[0], DETENT_AT(angular_impulse[2])), reals_at(to[1], DETENT_AT(angular_impulse[2])),
-              reals_at(to[2], DETENT_AT(angular_impulse[2])), reals_at(to[3], DETENT_AT(angular_impulse[2]))});
 }
 
 /// Four bodies, one per lane. Only the bodies that take impulses are written back.
@@ -176,6 +121,12 @@ struct Bodies {
   BodyMotion* motion[4];
   BodyWork* work[4];
 
+  DETENT_LANES_INLINE Bodies(const SolverBodies& bodies, const uint32_t (&slots)[4]) {
+    for (int k = 0; k < 4; ++k) {
+      motion[k] = &bodies.motions[slots[k]];
+      work[k] = &bodies.work[slots[k]];
+    }
+  }
   DETENT_LANES_INLINE void read(LaneBody& to, bool with_displacement) const {
     read_vector(
         motion, [](BodyMotion& m) -> Vec3<Real>& { return m.linear_velocity; }, to.linear_velocity);
@@ -195,14 +146,8 @@ struct Bodies {
     read_vector(
         work, [](BodyWork& w) -> Vec3<Real>& { return w.contact_angular_momentum; }, to.contact_angular_momentum);
 #endif
-    const auto inverse_inertia = [this](int k) { return reinterpret_cast<const uint8_t*>(&work[k]->inverse_inertia); };
-    const LaneWords<12> words({inverse_inertia(0), inverse_inertia(1), inverse_inertia(2), inverse_inertia(3)});
-    DETENT_UNROLL
-    for (uint32_t i = 0; i < 3; ++i)
-      to.inverse_inertia.row[i] = {words.unit(3 * i), words.unit(3 * i + 1), words.unit(3 * i + 2)};
-    to.inverse_inertia.exponent = words.exponent(9);
   }
-  DETENT_LANES_INLINE void write(const LaneBody& from, Contacts contacts, Scaled ContactWork::*share) const {
+  DETENT_LANES_INLINE void write(const LaneBody& from, const uint32_t (&takes)[4]) const {
     // Receives the results for bodies that take no impulses. They must not be written back, because such a body may
     // belong to several of the contacts.
     BodyMotion no_motion;
@@ -210,9 +155,8 @@ struct Bodies {
     BodyMotion* motions[4];
     BodyWork* works[4];
     for (int k = 0; k < 4; ++k) {
-      const bool takes = is_positive(contacts[k]->*share);
-      motions[k] = takes ? motion[k] : &no_motion;
-      works[k] = takes ? work[k] : &no_work;
+      motions[k] = takes[k] != 0 ? motion[k] : &no_motion;
+      works[k] = takes[k] != 0 ? work[k] : &no_work;
     }
     write_vector(from.linear_velocity, motions, [](BodyMotion& m) -> Vec3<Real>& { return m.linear_velocity; });
     write_vector(from.angular_momentum, motions, [](BodyMotion& m) -> Vec3<Real>& { return m.angular_momentum; });
@@ -225,54 +169,90 @@ struct Bodies {
   }
 };
 
-Bodies bodies_of(const SolverBodies& bodies, Contacts contacts, uint32_t ContactState::*body) {
-  Bodies result;
-  for (int k = 0; k < 4; ++k) {
-    const uint32_t slot = contacts[k]->state.*body;
-    result.motion[k] = &bodies.motions[slot];
-    result.work[k] = &bodies.work[slot];
-  }
-  return result;
-}
+static_assert(sizeof(LaneContact) == sizeof(LaneSpace) && alignof(LaneContact) <= alignof(LaneSpace));
+DETENT_LANES_INLINE LaneContact& contact_in(LaneSpace& lanes) { return reinterpret_cast<LaneContact&>(lanes); }
 
-/// Reads four contacts and their bodies, calls `solve` on them, and writes the bodies back. `read` reads the members of
-/// the contacts that only this pass needs; `write` writes the contacts back.
-template <class Read, class Solve, class Write>
-DETENT_LANES_INLINE void pass(const StepSettings& settings, const SolverBodies& bodies, Contacts contacts,
-                              bool with_displacement, const Read& read, const Solve& solve, const Write& write) {
-  const Bodies all_a = bodies_of(bodies, contacts, &ContactState::body_a);
-  const Bodies all_b = bodies_of(bodies, contacts, &ContactState::body_b);
-  LaneContact contact;
-  LaneBody a, b;
-  read_contact(contacts, contact);
-  read(contacts, contact);
+/// Reads the bodies of four contacts, calls `solve` on them, and writes the bodies back.
+template <class Solve>
+DETENT_LANES_INLINE void pass(const StepSettings& settings, const SolverBodies& bodies, LaneSpace& lanes,
+                              bool with_displacement, const Solve& solve) {
+  LaneContact& contact = contact_in(lanes);
+  const Bodies all_a(bodies, contact.body[0]), all_b(bodies, contact.body[1]);
+  LaneBody a(contact.inverse_inertia[0]), b(contact.inverse_inertia[1]);
   all_a.read(a, with_displacement);
   all_b.read(b, with_displacement);
   ContactSolver<Four> solver = {settings, contact, a, b};
   solve(solver);
-  all_a.write(a, contacts, &ContactWork::inverse_mass_a);
-  all_b.write(b, contacts, &ContactWork::inverse_mass_b);
-  write(contact, contacts);
+  all_a.write(a, contact.takes[0]);
+  all_b.write(b, contact.takes[1]);
+}
+
+/// Calls visit(member of ContactWork, number of Reals, their lanes) for each array of impulses that the passes change.
+template <class Lane, class Visit>
+DETENT_LANES_INLINE void each_impulse(Lane& lanes, const Visit& visit) {
+  visit([](auto& contact) { return contact.state.normal_impulse; }, lanes.state.normal_impulse);
+  visit([](auto& contact) { return contact.impulse_max; }, lanes.impulse_max);
+  visit([](auto& contact) { return contact.friction_impulse; }, lanes.friction_impulse);
+  visit([](auto& contact) { return contact.angular_impulse; }, lanes.angular_impulse);
+}
+
+template <class Pick, unsigned count>
+DETENT_LANES_INLINE void read_all(Contacts from, const Pick& pick, LaneReals (&to)[count]) {
+  for (unsigned i = 0; i < count; ++i)
+    to[i] = read_real({pick(*from[0]) + i, pick(*from[1]) + i, pick(*from[2]) + i, pick(*from[3]) + i});
 }
 
 }  // namespace
 
-void warm_start_lanes(const StepSettings& settings, const SolverBodies& bodies, Contacts contacts) {
-  pass(
-      settings, bodies, contacts, false, read_friction, [](ContactSolver<Four>& solver) { solver.warm_start(); },
-      [](const LaneContact&, Contacts) {});
+void put_in_lanes(const SolverBodies& bodies, Span<const ContactWork> contacts, const ContactOrder* order,
+                  LaneSpace& lanes) {
+  LaneContact& to = contact_in(lanes);
+  const ContactWork* const from[4] = {&contacts[order[0].contact], &contacts[order[1].contact],
+                                      &contacts[order[2].contact], &contacts[order[3].contact]};
+  for (int k = 0; k < 4; ++k) {
+    to.contact[k] = order[k].contact;
+    to.body[0][k] = from[k]->state.body_a;
+    to.body[1][k] = from[k]->state.body_b;
+    to.takes[0][k] = is_positive(from[k]->inverse_mass_a) ? 1 : 0;
+    to.takes[1][k] = is_positive(from[k]->inverse_mass_b) ? 1 : 0;
+  }
+  to.state.point_count = from[0]->state.point_count;
+  to.angular_rows = from[0]->angular_rows;
+  read_rows(from, to);
+  read_inverse_inertias(bodies, to);
+  each_impulse(to, [&](const auto& pick, auto& impulses) { read_all(from, pick, impulses); });
+  read_all(
+      from, [](const ContactWork& contact) { return contact.separation; }, to.separation);
+  to.push_max = read_real({&from[0]->push_max, &from[1]->push_max, &from[2]->push_max, &from[3]->push_max});
 }
 
-void solve_normals_lanes(const StepSettings& settings, const SolverBodies& bodies, Contacts contacts) {
-  pass(
-      settings, bodies, contacts, true, read_gaps, [](ContactSolver<Four>& solver) { solver.solve_normals(); },
-      write_solved);
+void renew_lanes(const SolverBodies& bodies, Span<const ContactWork> contacts, LaneSpace& lanes) {
+  LaneContact& to = contact_in(lanes);
+  read_rows({&contacts[to.contact[0]], &contacts[to.contact[1]], &contacts[to.contact[2]], &contacts[to.contact[3]]},
+            to);
+  read_inverse_inertias(bodies, to);
 }
 
-void relax_lanes(const StepSettings& settings, const SolverBodies& bodies, Contacts contacts) {
-  pass(
-      settings, bodies, contacts, false, read_friction, [](ContactSolver<Four>& solver) { solver.relax(); },
-      write_relaxed);
+void take_from_lanes(const LaneSpace& lanes, Span<ContactWork> contacts) {
+  const LaneContact& from = reinterpret_cast<const LaneContact&>(lanes);
+  ContactWork* const to[4] = {&contacts[from.contact[0]], &contacts[from.contact[1]], &contacts[from.contact[2]],
+                              &contacts[from.contact[3]]};
+  each_impulse(from, [&](const auto& pick, const auto& impulses) {
+    for (unsigned i = 0; i < sizeof(impulses) / sizeof(impulses[0]); ++i)
+      write_real(impulses[i], {pick(*to[0]) + i, pick(*to[1]) + i, pick(*to[2]) + i, pick(*to[3]) + i});
+  });
+}
+
+void warm_start_lanes(const StepSettings& settings, const SolverBodies& bodies, LaneSpace& lanes) {
+  pass(settings, bodies, lanes, false, [](ContactSolver<Four>& solver) { solver.warm_start(); });
+}
+
+void solve_normals_lanes(const StepSettings& settings, const SolverBodies& bodies, LaneSpace& lanes) {
+  pass(settings, bodies, lanes, true, [](ContactSolver<Four>& solver) { solver.solve_normals(); });
+}
+
+void relax_lanes(const StepSettings& settings, const SolverBodies& bodies, LaneSpace& lanes) {
+  pass(settings, bodies, lanes, false, [](ContactSolver<Four>& solver) { solver.relax(); });
 }
 
 }  // namespace DETENT_NAMESPACE

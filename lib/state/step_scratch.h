@@ -17,6 +17,7 @@ struct Scratch {
   Span<uint64_t> pairs, pair_sort;
   Span<ContactWork> contacts;
   Span<ContactOrder> contact_order, contact_sort;
+  Span<LaneSpace> lane_contacts;
   Span<Island> islands;
   Span<uint32_t> island_bodies;
   Span<BodySweep> sweeps;
@@ -45,6 +46,9 @@ inline Scratch scratch_of(uint8_t* block, const Layout& layout, Capacity capacit
           {at_offset<ContactWork>(block, layout.contact_work), capacity.contacts},
           {at_offset<ContactOrder>(block, layout.contact_order), capacity.contacts},
           {at_offset<ContactOrder>(block, layout.contact_sort), capacity.contacts},
+          k_may_have_lanes ? Span<LaneSpace>{at_offset<LaneSpace>(block, layout.lane_contacts),
+                                             lane_contact_count(capacity.contacts)}
+                           : Span<LaneSpace>{},
           {at_offset<Island>(block, layout.islands), capacity.bodies},
           {at_offset<uint32_t>(block, layout.island_bodies), capacity.bodies},
           {at_offset<BodySweep>(block, layout.sweeps), capacity.bodies},

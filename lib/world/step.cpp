@@ -112,7 +112,7 @@ class Step {
   /// Whether islands may be solved together. They may not if each island can end its iterations early, or if positions
   /// are corrected island by island after the substeps.
   bool groups_islands() const {
-    return k_built_with_lanes && settings_.lanes && settings_.iterations == 1 && !settings_.post_stabilises;
+    return uses_lanes(settings_) && settings_.iterations == 1 && !settings_.post_stabilises;
   }
   Island island_group(uint32_t first, uint32_t& count) const;
   void solve_islands(Team* team);
@@ -313,7 +313,7 @@ bool Step::is_solved_by_one_thread(const Island& island, uint32_t large) const {
 
 void Step::solve_island(const Island& island, StepSettings& settings) {
   const Span<const uint32_t> slots = {scratch_.island_bodies.data + island.first_body, island.body_count};
-  const Span<const ContactOrder> order = {scratch_.contact_order.data + island.first_contact, island.contact_count};
+  const Span<ContactOrder> order = {scratch_.contact_order.data + island.first_contact, island.contact_count};
   if (island.substeps != settings.substeps) set_substeps(island.substeps, settings);
   share(settings.team, slots, k_bodies_shared, [&](Span<const uint32_t> part) {
     predict(settings, bodies_.properties, part, solver_bodies_.motions, bodies_.work);
@@ -324,7 +324,9 @@ void Step::solve_island(const Island& island, StepSettings& settings) {
     return;
   }
   const IslandJoints joints = {jointed ? joint_ops_ : nullptr, &island, &joints_};
-  const SolveCount count = solve(settings, solver_bodies_, slots, order, contacts_, joints);
+  const uint32_t first_lanes = island.first_contact / 4;  // islands get different ones
+  const Span<LaneSpace> lanes = {scratch_.lane_contacts.data + first_lanes, lane_contact_count(island.contact_count)};
+  const SolveCount count = solve(settings, solver_bodies_, slots, {order, contacts_, lanes}, joints);
   Team::add(report_.saturations, count.clamped);
   Team::add(report_.contacts.sweeps_saved, count.sweeps_saved);
   Team::add(report_.joints.undecided, count.undecided);
@@ -383,7 +385,7 @@ void Step::advance() {
   if (joint_ops_ != nullptr) {
     joint_ops_->store(settings_, solver_bodies_, joints_);
     for (const JointBody& body : joints_.bodies.first(joints_.body_count)) {
-      if (body.mobile != 0) sweeps_[body.slot].marks = k_mark_jointed * (bodies_.work[body.slot].island + 1);
+      if (body.mobile != 0) sweeps_[body.slot].marks |= k_mark_jointed * (bodies_.work[body.slot].island + 1);
     }
   }
   advance_bodies();

@@ -150,7 +150,18 @@ struct Collider {
     collide_pair(settings, slot_a, slot_b, bodies, before, geometry, recycles() ? &manifold : nullptr, recycled);
     count.capped += geometry.capped ? 1 : 0;
     count.recycled += recycled ? 1 : 0;
-    if (geometry.count != 0) add(key, 0, geometry, manifold, before.contact);
+    if (geometry.count != 0)
+      add(key, 0, geometry, manifold, before.contact);
+    else if (geometry.seam)
+      mark_sliver(slot_a, slot_b);
+  }
+
+  /// Records for the impacts that these bodies may be near each other although they have no contact.
+  void mark_sliver(uint32_t slot_a, uint32_t slot_b) const {
+    alone(settings.team, [&] {
+      bodies.work[slot_a].colours |= k_has_sliver;
+      bodies.work[slot_b].colours |= k_has_sliver;
+    });
   }
 
   /// Restores the order in which the contacts were found, after some were dropped.

@@ -17,7 +17,7 @@ struct Layout {
   uint32_t persistent_bytes;  ///< end of the snapshot
   uint32_t cache, tree_nodes, tree_parents, active, candidates, moving_bodies, awake_contacts;
   uint32_t bounds, bounds_keys, bounds_sort, pairs, pair_sort, contact_work, islands, island_bodies, sweeps;
-  uint32_t body_work, contact_order, contact_sort, impact_pairs, impact_hits, impact_paths;
+  uint32_t body_work, contact_order, contact_sort, lane_contacts, impact_pairs, impact_hits, impact_paths;
   uint32_t manifold_work, joint_work, joint_bodies, joint_order, joint_couplings, joint_numbers, disabled_pairs;
   uint32_t sensed_work, sensed_passed, changed;
   uint32_t bytes;
@@ -47,6 +47,9 @@ constexpr uint32_t joint_number_count(Capacity capacity) {
   return all < most ? all : most;
 }
 
+/// Largest number of groups of four of these contacts that are solved at once.
+constexpr uint32_t lane_contact_count(uint32_t contacts) { return k_may_have_lanes ? contacts / 4 : 0; }
+
 constexpr uint32_t slot_words(uint32_t bodies) { return (bodies + 63) / 64 * 2; }
 
 constexpr bool in_range(Capacity capacity) {
@@ -54,7 +57,9 @@ constexpr bool in_range(Capacity capacity) {
          capacity.assets <= k_capacity_max && capacity.joints <= k_capacity_max && capacity.sensed <= k_capacity_max;
 }
 
-/// The layout for a capacity in range; `fits` is false if the block would need 2^32 bytes or more.
+/// The layout for a capacity in range; `fits` is false if the block would need 2^32 bytes or more. Without lanes it is
+/// the same on every target.
+template <bool has_lanes = k_may_have_lanes>
 DETENT_SHARED constexpr Layout layout_of(Capacity capacity, bool& fits) {
   uint64_t end = 0;
   const auto place = [&end](uint32_t element_bytes, uint32_t count) {
@@ -102,6 +107,7 @@ DETENT_SHARED constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.body_work = place(sizeof(BodyWork), capacity.bodies);
   layout.contact_order = place(sizeof(ContactOrder), capacity.contacts);
   layout.contact_sort = place(sizeof(ContactOrder), capacity.contacts);
+  layout.lane_contacts = has_lanes ? place(sizeof(LaneSpace), capacity.contacts / 4) : 0;
   const uint64_t substeps_end = end;
   end = moved;
   layout.impact_pairs = place(sizeof(ImpactPair), capacity.contacts);

@@ -62,9 +62,12 @@ struct alignas(sizeof(Unit)) FreeRotation {
   int32_t odd;      ///< index of the odd axis
 };
 
+/// In BodyWork::colours: a contact of the body was left out as a sliver (contact_seam.h).
+inline constexpr uint64_t k_has_sliver = uint64_t{1} << 63;
+
 /// A body during the substeps. Members from `axes` to `speed` are set at the start of the tick.
 struct alignas(8) BodyWork {
-  uint64_t colours;     ///< bit set of the colours of its contacts
+  uint64_t colours;     ///< bit set of the colours of its contacts, and k_has_sliver
   uint32_t island;      ///< while islands are found: a link towards the island's first body; then the island's index
   uint32_t run;         ///< as `island`, for its run: a chain of bodies that touch at most two others each
   uint32_t run_length;  ///< of the run's first body: number of bodies in the run
@@ -145,11 +148,23 @@ struct alignas(8) ContactWork {
   Real approach[k_manifold_points_max];
 };
 
+/// Whether builds for this machine may solve four contacts at once, in registers of 256 bits (lib/solver/lanes.h).
+#if (defined(__x86_64__) && !defined(DETENT_F64)) || (defined(__aarch64__) && defined(DETENT_F32))
+inline constexpr bool k_may_have_lanes = true;
+#else
+inline constexpr bool k_may_have_lanes = false;
+#endif
+/// Work space for four contacts that are solved at once (LaneContact in lib/solver/lane_contact.h).
+struct alignas(8) LaneSpace {
+  uint8_t bytes[DETENT_FIXED ? 2448 : 2096];
+};
+
 /// The position of a contact in the solve order.
 struct ContactOrder {
   uint32_t key;  ///< hash of the pair's ids
   uint32_t contact;
-  uint16_t colour, kind;
+  uint16_t colour;
+  uint16_t kind;  ///< kind of work, and the place in a group of four (contact_order.h)
   uint32_t island;
 };
 
@@ -283,6 +298,8 @@ struct JointCoupling {
 /// The motion of a body for the rest of the tick, from its pose at `from`: constant velocity and constant angular
 /// velocity, world axes.
 struct BodySweep {
+  /// In `marks`: the body's BodyWork::colours had k_has_sliver.
+  static constexpr uint32_t k_mark_sliver = 64;
   Fraction from;
   Vec3<Real> displacement;  ///< in a whole tick at this velocity, m
   Vec3<Real> rotation_vector;          ///< in a whole tick at this angular velocity, rad

@@ -1,3 +1,4 @@
+#include <detent/detail/layout.h>
 #include <detent/recording.h>
 #include <ports/config_text.h>
 #include <ports/machine.h>
@@ -155,7 +156,8 @@ int replay(const Options& options, MachineFile& file) {
   WorldDef def;
   def.capacity = info.capacity;
   World world;
-  print_value("world ", world_bytes(info.capacity));
+  bool fits = false;
+  print_value("world ", layout_of<false>(info.capacity, fits).bytes);  // of targets without lanes
   if (world_bytes(info.capacity) > sizeof block)
     return fail(options.recording, "its world is larger than this program's");
   const Status created = create_world(block, sizeof block, def, {.assets = scene_assets()}, world);

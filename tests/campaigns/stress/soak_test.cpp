@@ -142,13 +142,13 @@ struct Ending {
   uint64_t digest;
 };
 #if defined(DETENT_FX64)
-constexpr Ending k_endings[] = {{10000, 0x6b4e9f31f304079d}, {1000000, 0x2cd465c162dbba05}};
+constexpr Ending k_endings[] = {{10000, 0xab0b213281eb826f}, {1000000, 0x8181ae8346c4d6fc}};
 #elif defined(DETENT_FX32)
-constexpr Ending k_endings[] = {{10000, 0xea55d2065234679d}, {1000000, 0xbf2b6debc010f509}};
+constexpr Ending k_endings[] = {{10000, 0x2797c198a8cbd74d}, {1000000, 0x766a46193e7f2d14}};
 #elif defined(DETENT_F32)
-constexpr Ending k_endings[] = {{10000, 0xc2134d7ef3a59ff2}};
+constexpr Ending k_endings[] = {{10000, 0x29799c879e728b23}};
 #else
-constexpr Ending k_endings[] = {{10000, 0x11553d0f31d0127b}};
+constexpr Ending k_endings[] = {{10000, 0x16ccd2bf122703d3}};
 #endif
 
 /// A million ticks if DETENT_FULL is set.
