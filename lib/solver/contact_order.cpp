@@ -22,17 +22,10 @@ uint32_t pair_hash(Span<const BodyProperties> properties, const ContactState& co
   return static_cast<uint32_t>(digest_finish(pair) >> 32);
 }
 
-constexpr uint32_t k_alone = 0x20;  ///< kind of contacts that are not solved four at once
-
 /// The kind of work of a contact. Contacts of one colour may be solved in any order. Those of the same kind are sorted
 /// together, so that four can be solved at once.
 uint16_t kind_of(const ContactWork& contact) {
-  // Products with larger responses would not fit a double of the lanes, so such contacts are solved one by one.
-  constexpr int32_t k_lane_exponent_max = 22;
-  const bool alone =
-      DETENT_FIXED && k_may_have_lanes &&
-      (contact.coupling_exponent > k_lane_exponent_max || contact.response_exponent > k_lane_exponent_max);
-  return static_cast<uint16_t>(contact.state.point_count | contact.angular_rows << 3 | (alone ? k_alone : 0));
+  return static_cast<uint16_t>(contact.state.point_count | contact.angular_rows << 3);
 }
 
 /// Takes the lowest colour that is free at both bodies and returns it. Returns k_colour_overflow if there is none.
@@ -84,10 +77,6 @@ uint32_t order_contacts(Span<const BodyProperties> properties, Span<const Contac
       [](const ContactOrder& entry, int digit) { return uint32_t{digit == 0 ? entry.kind : entry.colour}; }, 2);
   sort_by_island(islands, work, spare, order, 0);
   return overflows;
-}
-
-bool may_be_in_four(const ContactOrder& entry) {
-  return entry.colour != k_colour_overflow && (entry.kind & k_alone) == 0;
 }
 
 bool are_solved_together(const Island& a, const Island& b) {

@@ -14,9 +14,6 @@ inline constexpr uint16_t k_colour_overflow = 63;
 /// and the three after it.
 inline constexpr uint16_t k_kind_mask = 0xff, k_first_of_four = 0x100, k_rest_of_four = 0x200;
 
-/// Whether contacts of this kind may be solved four at once.
-bool may_be_in_four(const ContactOrder& entry);
-
 /// Computes the order in which the solver visits contacts. First the contacts are sorted by the hash of their bodies'
 /// ids; contacts with equal hashes keep their order. In this order, each contact takes the lowest colour that is free
 /// at both of its dynamic bodies. The result is sorted by (island, colour, kind of work, hash). Any schedule that keeps

@@ -12,10 +12,12 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The exponent for mantissas of values up to `value`, such that a sum of four mantissas fits. Always 0 in float.
+/// The exponent for mantissas of values up to `value`, such that a sum of four mantissas fits: at most 19, because of
+/// the range of Real. Always 0 in float.
 int32_t exponent_for(Real value) { return DETENT_FIXED ? exponent_above(value) + 2 : 0; }
 
 #if DETENT_FIXED
+static_assert(63 - k_real_frac + 2 <= 22);  // with larger exponents the products of a contact exceed 53 bits
 /// The factor that converts mantissas of values / 2^exponent to raw Reals. A multiplication costs less than a shift of
 /// each mantissa. Range: the conversion must not drop bits of a mantissa.
 uint64_t real_power(int exponent) {
@@ -128,10 +130,7 @@ void couple(const PairResponse& response, ContactWork& work) {
     }
     work.inverse_mass[i] = fine(mass_of(coupling[i][i]));
   }
-  // A thin body that is hit far from its centre can reach this limit. Its points then get smaller impulses.
-  constexpr int32_t k_most = 29;
-  const int32_t exponent = exponent_for(most);
-  work.coupling_exponent = exponent < k_most ? exponent : k_most;
+  work.coupling_exponent = exponent_for(most);
   for (uint32_t i = 0; i < count; ++i) {
     for (uint32_t k = 0; k < k_manifold_points_max; ++k)
       work.coupling[i][k] = k < count ? fine(unit_from_real(coupling[i][k], work.coupling_exponent)) : Unit(0.0);

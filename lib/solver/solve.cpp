@@ -122,7 +122,7 @@ void put_all_in_lanes(const StepSettings& settings, const SolverBodies& bodies, 
   if (!uses_lanes(settings)) return;
   for (uint32_t i = 0; i + 4 <= all.order.count;) {
     ContactOrder* const four = all.order.data + i;
-    if (four[0].colour != four[3].colour || four[0].kind != four[3].kind || !may_be_in_four(four[0])) {
+    if (four[0].colour != four[3].colour || four[0].kind != four[3].kind || four[0].colour == k_colour_overflow) {
       ++i;
       continue;
     }

@@ -14,7 +14,7 @@ inline constexpr bool k_built_with_lanes = true;
 bool has_lanes();
 
 /// Puts four contacts, order[0] to order[3], into lanes. Range: no dynamic body belongs to two of the contacts; all
-/// have equal numbers of points and of angular rows; may_be_in_four() is true.
+/// have equal numbers of points and of angular rows.
 void put_in_lanes(const SolverBodies& bodies, Span<const ContactWork> contacts, const ContactOrder* order,
                   LaneSpace& lanes);
 /// Reads the rows of the contacts, and the inverse inertias of their bodies, again. Impulses stay.
