@@ -94,7 +94,8 @@ void rebound(ContactSolver<One>& solver) {
   Ulps along, about_first, about_second;
   normals.put(along, about_first, about_second);
   apply_normal<One>(contact, motion.block, along, about_first, about_second, solver.a, solver.b);
-  for (uint32_t i = 0; i < count; ++i) {
+  for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
+    if (i >= count) break;
     // The point separates: no impulse is carried over to the next tick.
     if (normals.may[i]) contact.state.normal_impulse[i] = k_zero;
   }
