@@ -57,11 +57,19 @@ class Block {
              (k_angular_velocity_power - exponent);
   }
   /// Includes the first `used` values, as numbers, in the choice of the block by settle().
-  template <unsigned count>
-  void include(const Real (&values)[count], uint32_t used) {
+  DETENT_SHARED void include(const Real* values, uint32_t used) {
     uint64_t all = 0;
     for (uint32_t i = 0; i < used; ++i) all |= magnitude_64(values[i].raw);
     bits_ |= all >> k_number_drop;
+  }
+  /// Includes the lesser of the speeds `speed` 2^exponent, in block `from`, and `most`, as a number. To be called
+  /// before settle(). Range: both speeds >= 0.
+  void include_speed(Factor speed, const Block& from, int exponent, Real most) {
+    if (speed == 0) return;
+    const int bits = bit_length_64(static_cast<uint64_t>(speed)) + from.shift_ + exponent;
+    const int bits_max = bit_length_64(static_cast<uint64_t>(most.raw));
+    const int least = (bits < bits_max ? bits : bits_max) - k_number_bits;
+    if (least > shift_) shift_ = least;
   }
   /// Chooses the power of two of the block.
   void settle() {
@@ -77,10 +85,13 @@ class Block {
     return {static_cast<int32_t>(shift_64(v.x.raw, -n)), static_cast<int32_t>(shift_64(v.y.raw, -n)),
             static_cast<int32_t>(shift_64(v.z.raw, -n))};
   }
-  /// The value as a number of the block, rounded down and clamped to the range of a factor.
-  Factor held(Real value) const { return detent::held(floor_shift_64(value.raw, shift_)); }
+  /// The value times 2^exponent as a number of the block, rounded down and clamped to the range of a factor. Range:
+  /// -15 <= exponent <= 0.
+  DETENT_SHARED Factor held(Real value, int exponent = 0) const {
+    return detent::held(floor_shift_64(value.raw, shift_ - exponent));
+  }
   /// The value as a number of the block, rounded down.
-  Ulps number(Real value) const { return floor_shift_64(value.raw, shift_); }
+  DETENT_SHARED Ulps number(Real value) const { return floor_shift_64(value.raw, shift_); }
   Real real(Ulps ulps) const { return Real::from_raw(static_cast<int64_t>(static_cast<uint64_t>(ulps) << shift_)); }
   /// Converts a number of block `from`, times 2^exponent, to a number of this block, clamped to the range of a factor.
   DETENT_SHARED Factor converted(Factor ulps, const Block& from, int exponent) const {
@@ -201,11 +212,11 @@ inline constexpr int k_angular_velocity_power = 0;
 class Block {
  public:
   void include(const Vec3<Real>&, int) {}
-  template <unsigned count>
-  void include(const Real (&)[count], uint32_t) {}
+  void include(const Real*, uint32_t) {}
+  void include_speed(Factor, const Block&, int, Real) {}
   void settle() {}
   Mantissas mantissas(const Vec3<Real>& v, int) const { return v; }
-  Factor held(Real value) const { return value; }
+  Factor held(Real value, int exponent = 0) const { return scale_by_power(value, exponent); }
   Ulps number(Real value) const { return value; }
   Real real(Ulps ulps) const { return ulps; }
   Vec3<Real> real(const Mantissas& v, Scaled share, int) const { return {v.x * share, v.y * share, v.z * share}; }

@@ -5,9 +5,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A point counts as in contact if its approach speed is at most k_arrival push_max below the speed that closes its
-/// gap.
-inline constexpr Unit k_arrival = 1.0 / 512;
+/// A point counts as in contact if its approach speed is at most 2^k_arrival_power push_max below the speed that closes
+/// its gap.
+inline constexpr int k_arrival_power = -9;
 /// Largest number of rounds in which the points of a contact change between touching and not.
 inline constexpr int k_pivot_rounds = 6;
 /// Softness of rows that are not springs, over their response: it makes impulses of redundant points definite.
@@ -31,7 +31,7 @@ struct Normals {
   const uint32_t count;
   /// Normal velocity of each point, updated with each impulse.
   typename Kind::Sum velocity[k_manifold_points_max];
-  Number impulse[k_manifold_points_max];  ///< accumulated normal impulses, updated with each change
+  Number impulse[k_manifold_points_max];  ///< accumulated normal impulses, updated with each change; factors
   Number added[k_manifold_points_max];
   // The rows for solve_rows().
   Factor wanted[k_manifold_points_max];    ///< speed minus the target; to be set
@@ -133,7 +133,7 @@ struct Normals {
     const Factor none = Kind::zero();
     DETENT_UNROLL
     for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
-      if (i < count) change[i] = select(may[i] & !active[i], Factor(-held(impulse[i])), none);
+      if (i < count) change[i] = select(may[i] & !active[i], Factor(-Kind::factor(impulse[i])), none);
     }
     Factor side[k_manifold_points_max];
     Factor lower[k_manifold_points_max][k_manifold_points_max];  // L
@@ -254,35 +254,36 @@ struct ContactSolver {
     near.include(contact.separation, contact.state.point_count);
     const PairMotion<Kind> moved(near, b.displacement - a.displacement, a.rotation_vector, b.rotation_vector, 0);
     const NormalMotion<Kind> displacement(moved, contact);
-    typename Kind::Block room;
-    room.include(contact.state.normal_impulse, contact.state.point_count);
-    const PairMotion<Kind> motion = relative_motion(room);
-    const typename Kind::Block& block = motion.block;
-    Normals<Kind> normals(contact, block, NormalMotion<Kind>(motion, contact));
-    const Factor none = Kind::zero(), push_max = block.held(contact.push_max);
-    const Factor arrival = held(times(push_max, Kind::unit(k_arrival)));
+    const uint32_t count = contact.state.point_count;
+    const Factor none = Kind::zero();
     const auto soft = Kind::softness(settings, contact);
-    Factor push[k_manifold_points_max];
-    typename Kind::Mask apart[k_manifold_points_max];
+    Factor push[k_manifold_points_max] = {}, least = none;
+    typename Kind::Mask apart[k_manifold_points_max] = {};
     DETENT_UNROLL
     for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
-      push[i] = none;
-      apart[i] = Kind::all();
-      if (i >= normals.count) continue;
+      if (i >= count) break;
       // The current separation: that at the start of the tick, plus the change by the motion since then, to first
       // order.
       const Factor separation = held(moved.block.number(contact.separation[i]) + displacement.at(contact, i));
       apart[i] = separation > none;
       const Factor length = select(apart[i], separation, Factor(held(times(separation, soft.rate))));
-      const Factor speed =
-          block.converted(held(times(length, Kind::unit(settings.rate_mantissa))), moved.block, settings.rate_exponent);
-      push[i] = select(apart[i], speed, max(speed, Factor(-push_max)));
+      // In the block of the lengths, times 2^-rate_exponent.
+      push[i] = held(times(length, Kind::unit(settings.rate_mantissa)));
+      least = min(least, push[i]);
     }
+    typename Kind::Block room;
+    room.include(contact.state.normal_impulse, count);
+    room.include_speed(Factor(-least), moved.block, settings.rate_exponent, contact.push_max);
+    const PairMotion<Kind> motion = relative_motion(room);
+    const typename Kind::Block& block = motion.block;
+    Normals<Kind> normals(contact, block, NormalMotion<Kind>(motion, contact));
+    const Factor push_max = block.held(contact.push_max), arrival = block.held(contact.push_max, k_arrival_power);
     DETENT_UNROLL
     for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
-      if (i >= normals.count) break;
+      if (i >= count) break;
+      push[i] = max(block.converted(push[i], moved.block, settings.rate_exponent), Factor(-push_max));
       const Factor spring = Kind::factor(times(Kind::eightfold(Kind::mantissa(contact, i, i)), soft.spring_eighth));
-      const Number pull = Kind::soft_speed(contact, Factor(held(normals.impulse[i])), spring);
+      const Number pull = Kind::soft_speed(contact, Kind::factor(normals.impulse[i]), spring);
       normals.softness[i] = select(apart[i], normals.softness[i], spring);
       normals.wanted[i] = held(normals.speed(i) + push[i] + select(apart[i], Number(none), pull));
     }

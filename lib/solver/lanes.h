@@ -196,11 +196,19 @@ class LaneBlock {
     include_bits(magnitude(v.x) | magnitude(v.y) | magnitude(v.z), k_angular_velocity_power - exponent);
   }
   /// Includes all numbers at once, combined by `or`. Range: not negative.
-  template <unsigned count>
-  DETENT_LANES_INLINE void include(const LaneReals (&values)[count], uint32_t used) {
+  DETENT_LANES_INLINE void include(const LaneReals* values, uint32_t used) {
     LaneInt64 all = {0, 0, 0, 0};
     for (uint32_t i = 0; i < used; ++i) all |= magnitude(values[i]);
     include_bits(all, k_number_drop);
+  }
+  DETENT_LANES_INLINE void include_speed(Lanes speed, const LaneBlock& from, int exponent, LaneReals most) {
+    // The bits below are below the finest step of a block.
+    constexpr int k_drop = 12;
+    static_assert(k_drop < k_shift_min + k_number_bits);
+    const LaneInt64 bits = bit_lengths(speed) + from.shift_ + words_of(exponent);
+    const LaneInt64 bits_max = bit_lengths(number_from(most.v >> k_drop)) + words_of(k_drop);
+    const LaneInt64 least = (bits < bits_max ? bits : bits_max) - words_of(k_number_bits);
+    shift_ = least > shift_ ? least : shift_;
   }
   DETENT_LANES_INLINE void settle() {
     LaneInt64 least;
@@ -213,8 +221,9 @@ class LaneBlock {
     return {number_from(round_shift_any(v.x.v, n)), number_from(round_shift_any(v.y.v, n)),
             number_from(round_shift_any(v.z.v, n))};
   }
-  DETENT_LANES_INLINE Lanes held(LaneReals value) const {
-    return number_from(clamp_words(shifted_down(value.v, shift_), -k_factor_max, k_factor_max));
+  DETENT_LANES_INLINE Lanes held(LaneReals value, int exponent = 0) const {
+    const LaneInt64 ulps = shifted_down(value.v, shift_ - words_of(exponent));
+    return number_from(clamp_words(ulps, -k_factor_max, k_factor_max));
   }
   /// Range: the value was included.
   DETENT_LANES_INLINE Lanes number(LaneReals value) const { return number_from(shifted_down(value.v, shift_)); }
@@ -240,17 +249,19 @@ class LaneBlock {
   DETENT_LANES_INLINE void coarsen(Lanes (&parts)[count]) {
     Lanes most = lanes_of(0);
     for (const Lanes& part : parts) most = max(most, max(part, -part));
-    // The bit length of an integer is the exponent of its double plus 1.
-    const LaneInt64 lengths = (reinterpret_cast<LaneInt64>(most.v) >> 52) - words_of(1022);
     const LaneMask long_ = most > lanes_of(static_cast<double>((int64_t{1} << k_wrench_bits) - 1));
     if (!any(long_)) return;
-    const LaneInt64 n = (lengths - words_of(k_wrench_bits)) & long_.v;
+    const LaneInt64 n = (bit_lengths(most) - words_of(k_wrench_bits)) & long_.v;
     const Lanes power = power_of_two(words_of(0) - n);
     for (Lanes& part : parts) part = times(part, power);
     shift_ += n;
   }
 
  private:
+  /// The bit lengths of integers >= 0: the exponents of their doubles plus 1. That of 0 is -1022.
+  DETENT_LANES_INLINE static LaneInt64 bit_lengths(Lanes a) {
+    return (reinterpret_cast<LaneInt64>(a.v) >> 52) - words_of(1022);
+  }
   DETENT_LANES_INLINE static LaneInt64 magnitude(LaneReals a) { return a.v < 0 ? -a.v : a.v; }
   DETENT_LANES_INLINE void include_bits(LaneInt64 all, int drop) {
     bits_ |= reinterpret_cast<LaneInt64>(reinterpret_cast<LaneUint64>(all) >> static_cast<uint64_t>(drop));
@@ -273,11 +284,13 @@ DETENT_LANES_INLINE Lanes rounded(Lanes sum, int) { return sum; }
 class LaneBlock {
  public:
   void include(const Vec3<Lanes>&, int) {}
-  template <unsigned count>
-  void include(const Lanes (&)[count], uint32_t) {}
+  void include(const Lanes*, uint32_t) {}
+  void include_speed(Lanes, const LaneBlock&, int, Lanes) {}
   void settle() {}
   DETENT_LANES_INLINE Vec3<Lanes> mantissas(const Vec3<Lanes>& v, int) const { return v; }
-  DETENT_LANES_INLINE Lanes held(Lanes value) const { return value; }
+  DETENT_LANES_INLINE Lanes held(Lanes value, int exponent = 0) const {
+    return {value.v * power_of_two<Real>(exponent)};
+  }
   DETENT_LANES_INLINE Lanes number(Lanes value) const { return value; }
   DETENT_LANES_INLINE Lanes real(Lanes ulps) const { return ulps; }
   template <class Exponent>

@@ -42,8 +42,6 @@ void part(const StepSettings& settings, ContactWork& contact, BodyWork& work_a, 
   for (uint32_t i = 0; i < normals.count; ++i) {
     normals.impulse[i] = k_no_ulps;
     normals.velocity[i] += sum_from(block.number(contact.separation[i]), contact.coupling_exponent);
-  }
-  for (uint32_t i = 0; i < normals.count; ++i) {
     const Factor gap = held(normals.speed(i));
     normals.may[i] = gap < Factor(k_no_ulps);
     normals.wanted[i] = max(Factor(times(gap, Unit(0.5))), Factor(-most));

@@ -9,14 +9,14 @@ struct SequencesDigest {
 };
 // clang-format off
 inline constexpr SequencesDigest k_sequences_digests[] = {
-    {"fx64", 1, 0x646dab56665851b7},
-    {"fx64", 101, 0x64a1b24bd4119172},
-    {"fx64", 201, 0xac2dcce74bfd88c8},
-    {"fx64", 301, 0xb139d11befaacfe3},
-    {"fx32", 1, 0x6fe79edd571aaf18},
-    {"fx32", 101, 0x10f7a092451557af},
-    {"fx32", 201, 0x0edc79f4cb961def},
-    {"fx32", 301, 0x19f0a3e4b02a6988},
+    {"fx64", 1, 0xf337142899c9d379},
+    {"fx64", 101, 0x28a2f0f3b7a93f0b},
+    {"fx64", 201, 0x69f178e60be71525},
+    {"fx64", 301, 0x4c7a14f3995cb56f},
+    {"fx32", 1, 0x89e67fd0ee4f718d},
+    {"fx32", 101, 0x0af378a794142b36},
+    {"fx32", 201, 0xd4ea06a80014b49e},
+    {"fx32", 301, 0x4caa3b756bb6330d},
     {"f32", 1, 0xadf72382c5d2c965},
     {"f32", 101, 0xc31215a101822781},
     {"f32", 201, 0x59fe0e88901abc55},

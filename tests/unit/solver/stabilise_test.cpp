@@ -94,6 +94,36 @@ DETENT_TEST(post_stabilisation, lets_a_stack_stand) {
   EXPECT_NEAR(lab.motion(top).position[0], 0, 0.01);
 }
 
+/// The overlap of a ball and the ground after one tick of one substep, by the formula of soft contacts.
+double overlap_after(double overlap, double frequency, double damping_ratio) {
+  const double phase = 2 * 3.14159265358979 * 2 * frequency;  // a static pair has twice the frequency
+  const double sum = 2 * 0.5 * damping_ratio + phase;         // and half the damping ratio
+  const double rate = phase / sum, softness = 1 / (phase * sum);
+  return overlap * (1 - rate / (1 + softness));
+}
+
+DETENT_TEST(soft_contact, closes_an_overlap_as_a_damped_spring_does) {
+  for (const double frequency : {1.0 / 64, 1.0 / 32, 0.14, 0.25}) {
+    for (const double damping_ratio : {1.0, 2.0, 10.0, 40.0}) {
+      WorldDef def = weightless(1);
+      def.contact_frequency = real(frequency);
+      def.damping_ratio = real(damping_ratio);
+      Lab lab(k_room, def);
+      lab.add_ground();
+      BodyDef ball;
+      ball.shape = sphere(real(0.5));
+      ball.position = position(0, 0.49, 0);
+      const BodyId id = lab.add(ball);
+      double expected = 0.01;
+      for (int tick = 0; tick < 10; ++tick) {
+        lab.run(1);
+        expected = overlap_after(expected, frequency, damping_ratio);
+        EXPECT_NEAR(0.5 - lab.motion(id).position[1], expected, 1e-4) << frequency << ", " << damping_ratio;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent
