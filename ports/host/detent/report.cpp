@@ -93,7 +93,13 @@ void Report::recorded(const RecordRequest& request, const Outcome& outcome) cons
 
 void Report::verified(const std::string& path, const Outcome& outcome) const {
   if (json) return print_json(timed_json_of(path, outcome));
-  if (outcome.verdict != Verdict::good) return print_problem(path, outcome);
+  if (outcome.verdict != Verdict::good) {
+    print_problem(path, outcome);
+    if (outcome.digests_differ)
+      fprintf(stderr, "%s\n%s\n", printable("  a page that draws it: detent view " + path).c_str(),
+              printable("  the smallest recording that differs: detent shrink " + path + " --while differs").c_str());
+    return;
+  }
   const std::string ticks = outcome.digests == outcome.ticks
                                 ? text(outcome.ticks) + " ticks equal"
                                 : text(outcome.ticks) + " ticks, " + text(outcome.digests) + " digests equal";
