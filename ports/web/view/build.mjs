@@ -32,6 +32,6 @@ const page = fill(
   code,
 );
 for (const config of configs) {
-  const module = gzipSync(readFileSync(`${modules}/view.${config}.wasm`), { level: 9 }).toString('base64');
+  const module = gzipSync(readFileSync(`${modules}/view.${config}.small.wasm`), { level: 9 }).toString('base64');
   writeFileSync(`${output}/${config}.html`, fill(page, '/*module*/', module));
 }
