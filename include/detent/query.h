@@ -123,6 +123,34 @@ Status query_bounds(const World& world, const BoundsQuery& query, QueryHits hits
 /// Finds the bodies that are nearest to the shape, within the search distance. Precision: as closest_points().
 Status query_closest(const World& world, const ClosestQuery& query, QueryHits hits, QueryReport& report);
 
+/// The answer to one query of a batch.
+struct QueryAnswer {
+  Status status = Status::ok;  ///< what the single call returns; after an error, report and hits are unchanged
+  QueryReport report = {};     ///< what the single call reports
+};
+
+/// Answers `count` queries of one kind: status, report and hits of each query are those of the single call, bit for
+/// bit. The queries run on the threads of WorldHooks::tasks, or on the calling thread if there are none or if `count`
+/// is small (Tasks::least).
+///
+/// `hits`: room for `hits_each` hits of each query; those of query i begin at hits[i * hits_each]. If a query has more
+/// hits, the last ones in sort order are dropped, and counted in its report. May be null if `hits_each` is 0.
+/// `answers`: room for one answer of each query. The three arrays must not overlap.
+///
+/// An invalid query does not affect the others. Returns the status of the first query that is not ok, if there is one.
+/// @{
+Status query_batch(const World& world, const RayQuery* queries, uint32_t count, QueryHit* hits, uint32_t hits_each,
+                   QueryAnswer* answers);
+Status query_batch(const World& world, const CastQuery* queries, uint32_t count, QueryHit* hits, uint32_t hits_each,
+                   QueryAnswer* answers);
+Status query_batch(const World& world, const OverlapQuery* queries, uint32_t count, QueryHit* hits, uint32_t hits_each,
+                   QueryAnswer* answers);
+Status query_batch(const World& world, const BoundsQuery* queries, uint32_t count, QueryHit* hits, uint32_t hits_each,
+                   QueryAnswer* answers);
+Status query_batch(const World& world, const ClosestQuery* queries, uint32_t count, QueryHit* hits, uint32_t hits_each,
+                   QueryAnswer* answers);
+/// @}
+
 /// A triangle of a body, at the body's current pose.
 struct BodyTriangle {
   uint32_t index = 0;       ///< as QueryHit::triangle

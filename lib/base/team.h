@@ -18,7 +18,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// Least numbers of elements that a thread takes at once.
-inline constexpr uint32_t k_bodies_shared = 32, k_pairs_shared = 16, k_contacts_shared = 8, k_islands_shared = 8;
+inline constexpr uint32_t k_bodies_shared = 32, k_pairs_shared = 16, k_contacts_shared = 8, k_islands_shared = 8,
+                          k_queries_shared = 1;
 
 #if DETENT_TASKS
 
@@ -182,6 +183,14 @@ void with_team(const Tasks& tasks, const Work& work) {
   Team team(tasks);
   team.run([&] { work(&team); });
 }
+/// The same, with `team` null also if there are few elements.
+template <class Work>
+void with_team(const Tasks& tasks, uint32_t elements, const Work& work) {
+  if (elements >= least_of(tasks))
+    with_team(tasks, work);
+  else
+    work(static_cast<Team*>(nullptr));
+}
 
 /// Calls body(first, last) for ranges that together are [0, count): one range if `team` is null or if there are at most
 /// `grain` elements.
@@ -217,6 +226,10 @@ class Team {
   static void add(uint32_t& sum, uint32_t value) { sum += value; }
   uint32_t many() const { return 0; }
 };
+template <class Work>
+inline void with_team(const Tasks&, uint32_t, const Work& work) {
+  work(static_cast<Team*>(nullptr));
+}
 template <class Body>
 inline void share(Team*, uint32_t count, uint32_t, const Body& body) {
   body(0, count);

@@ -89,14 +89,8 @@ class Step {
   uint32_t unless_ruled(uint32_t elements) const { return world_.hooks.filter_rules.count == 0 ? elements : 0; }
   /// Calls work(team) with the threads that the caller lends. `team` is null if there are none, or few elements.
   template <class Work>
-  void with_team([[maybe_unused]] uint32_t elements, const Work& work) {
-#if DETENT_TASKS
-    if (elements >= least_of(world_.hooks.tasks)) {
-      detent::with_team(world_.hooks.tasks, work);
-      return;
-    }
-#endif
-    work(static_cast<Team*>(nullptr));
+  void with_team(uint32_t elements, const Work& work) {
+    detent::with_team(world_.hooks.tasks, elements, work);
   }
   void start_joints();
   void wake_touched_bodies();

@@ -71,5 +71,20 @@ struct Scheduler {
   }
 };
 
+/// One of each kind, with few and with many threads.
+inline const Scheduler k_schedulers[] = {
+    {Calls::one_by_one, Parts::in_order, 2},
+    {Calls::one_by_one, Parts::backwards, 3},
+    {Calls::one_by_one, Parts::shuffled, 8},
+    {Calls::threads, Parts::in_order, 2},
+    {Calls::threads, Parts::backwards, 3},
+    {Calls::threads, Parts::shuffled, 3, true},
+    {Calls::late, Parts::in_order, 8},
+    {Calls::late, Parts::shuffled, 8, true},
+    {Calls::late, Parts::backwards, 64},
+    {Calls::threads, Parts::shuffled, 3, false, 2},
+    {Calls::threads, Parts::shuffled, 3, false, 9},
+};
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -50,20 +50,6 @@ void expect_equal(const StepReport& a, const StepReport& b) {
   EXPECT_EQ(a.saturations, b.saturations);
 }
 
-const Scheduler k_schedulers[] = {
-    {Calls::one_by_one, Parts::in_order, 2},
-    {Calls::one_by_one, Parts::backwards, 3},
-    {Calls::one_by_one, Parts::shuffled, 8},
-    {Calls::threads, Parts::in_order, 2},
-    {Calls::threads, Parts::backwards, 3},
-    {Calls::threads, Parts::shuffled, 3, true},
-    {Calls::late, Parts::in_order, 8},
-    {Calls::late, Parts::shuffled, 8, true},
-    {Calls::late, Parts::backwards, 64},
-    {Calls::threads, Parts::shuffled, 3, false, 2},
-    {Calls::threads, Parts::shuffled, 3, false, 9},
-};
-
 DETENT_TEST(tasks, change_no_bit_of_the_scenes) {
   uint32_t count = 0;
   const Scene* const all = scenes(count);
