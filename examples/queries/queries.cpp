@@ -64,4 +64,18 @@ int main() {
       .shape = sphere(0.0), .position = {7.0, 3.0, 0.0}, .distance_max = 8.0, .filter = {.mask = k_guard}};
   if (query_closest(world, nearest, {&hit, 1}, report) != Status::ok || report.hits == 0) return 1;
   printf("the nearest guard is %.2f m away\n", real_to_host(hit.distance));
+
+  // What can be seen in four directions: a batch of rays, with room for one hit of each.
+  RayQuery rays[4];
+  for (RayQuery& ray : rays) ray.origin = {6.0, 1.0, 0.0};
+  rays[0].displacement = {16.0, 0.0, 0.0};
+  rays[1].displacement = {-16.0, 0.0, 0.0};
+  rays[2].displacement = {0.0, 0.0, 16.0};
+  rays[3].displacement = {0.0, -16.0, 0.0};
+  QueryHit seen[4];
+  QueryAnswer answers[4];
+  if (query_batch(world, rays, 4, seen, 1, answers) != Status::ok) return 1;
+  for (uint32_t i = 0; i < 4; ++i) {
+    if (answers[i].report.hits != 0) printf("ray %u hits body %u\n", i, seen[i].body.slot);
+  }
 }

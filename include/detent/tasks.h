@@ -2,7 +2,7 @@
 #include <detent/config.h>
 
 /// @file
-/// Threads that a caller lends to the steps of a world. The library starts no thread of its own.
+/// Threads that a caller lends to the steps and batches of queries of a world. The library starts no thread of its own.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -19,8 +19,9 @@ struct TaskProbe {
   void* context = nullptr;                                       ///< passed to the functions
 };
 
-/// Runs parts of a step on the caller's threads. Set WorldHooks::tasks to use it. The number of threads, and the order
-/// in which they run, do not change any result: a step computes the same bits as on one thread.
+/// Runs parts of a step, and the queries of a batch (query_batch()), on the caller's threads. Set WorldHooks::tasks to
+/// use it. The number of threads, and the order in which they run, do not change any result: a step computes the same
+/// bits as on one thread.
 struct Tasks {
   /// Calls task(argument) `count` times, on any threads, in any order, and returns after the last call has returned.
   /// The calls may run at the same time, and may also run one after the other. They need threads of one priority: a
@@ -31,8 +32,8 @@ struct Tasks {
   void (*wait)(void* context) = nullptr;
   void* context = nullptr;  ///< passed to `run` and `wait`
   uint32_t workers = 0;     ///< number of calls that a stage asks for: as many as threads are free. Below 2: as null
-  /// A stage with fewer bodies or pairs runs on one thread, because calling for others takes longer than they save.
-  /// 0: 96. 1 is for tests: then each element of a loop is a part of its own.
+  /// A stage with fewer bodies or pairs, or a batch with fewer queries, runs on one thread, because calling for others
+  /// takes longer than they save. 0: 96. 1 is for tests: then each element of a loop is a part of its own.
   uint32_t least = 0;
   const TaskProbe* probe = nullptr;  ///< see TaskProbe
 };

@@ -140,7 +140,7 @@ struct WorldHooks {
   CapacityEventBuffer capacity_events = {};  ///< as contact_events: entries that a full pool dropped
   Profile* profile = nullptr;                ///< times of the stages of each step
   const StepObserver* observer = nullptr;    ///< called at the end of each stage of each step
-  Tasks tasks = {};                          ///< threads for parts of each step
+  Tasks tasks = {};                          ///< threads for parts of each step, and for batches of queries
 };
 
 /// A handle to a world in the caller's block. It owns nothing and may be copied.

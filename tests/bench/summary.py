@@ -61,8 +61,13 @@ def main():
         at_default = [row for row in rows if row.get("substeps", 0) == 0 and row.get("iterations", 0) == 0]
         compared(at_default, ("scene", "ground"), "us_median", 1.0, lambda row: row["engine"] == "detent", ())
     else:
-        keys = [key for key, value in rows[0].items() if isinstance(value, (str, int, float))][:8]
-        show(keys, [[f"{row[key]:.3g}" if isinstance(row[key], float) else str(row[key]) for key in keys] for row in rows])
+        # A table of the rows of each kind: of those that have the same columns.
+        tables = {}
+        for row in rows:
+            keys = tuple(key for key, value in row.items() if isinstance(value, (str, int, float)))[:8]
+            tables.setdefault(keys, []).append(row)
+        for keys, group in tables.items():
+            show(list(keys), [[f"{row[key]:.3g}" if isinstance(row[key], float) else str(row[key]) for key in keys] for row in group])
 
 
 main()

@@ -21,6 +21,8 @@ constexpr const char* k_help =
   2, 3 ...  how many times as fast a tick is on so many threads, as measured
   bound     the same for 2 to 64 threads, computed: the parts of the loops, timed on one thread, are scheduled greedily; a
             loop and a group of loops cost what they cost here, a loop once for each doubling of the threads
+Then, of the scene S4-rays, rays of 10 m through the heap of S4, awake and asleep, in thousands a second: a call for each ray,
+and batches on 1, 2 and more threads.
 All digests are compared: exit code 1 if one differs.)";
 
 constexpr uint32_t k_bounds[] = {2, 4, 8, 16, 32, 64};
@@ -75,6 +77,21 @@ nlohmann::ordered_json report(const ScalingRow& row, const std::vector<uint32_t>
   return json;
 }
 
+nlohmann::ordered_json report(const RayRow& row, const std::vector<uint32_t>& threads) {
+  const auto rate = [&](double ns) { return row.rays / ns * 1e6; };
+  nlohmann::ordered_json json = {{"config", row.config}, {"scene", row.scene}, {"asleep", row.asleep},
+                                 {"rays", row.rays},     {"same", row.same},   {"single_krays_s", rate(row.single_ns)}};
+  printf("%-5s %-7s %-6s %5u %9.1f ", row.config.c_str(), row.scene.c_str(), row.asleep ? "asleep" : "awake", row.rays,
+         rate(row.single_ns));
+  for (size_t i = 0; i < threads.size(); ++i) {
+    json["batch_krays_s_on_" + std::to_string(threads[i])] = rate(row.batch_ns[i]);
+    printf("%8.1f", rate(row.batch_ns[i]));
+  }
+  printf("%s\n", row.same ? "" : "  ANSWERS DIFFER");
+  fflush(stdout);
+  return json;
+}
+
 }  // namespace
 
 CLI::App* add_scaling_command(CLI::App& app, ScalingOptions& options) {
@@ -111,6 +128,17 @@ int run_scaling(const ScalingOptions& options) {
       const ScalingRow row = engine.measure(scene, threads);
       same = same && row.same;
       rows.push_back(report(row, threads, cost));
+    }
+  }
+  const ScalingScene rays = {"S4-rays", [] { return detent_stress::pit(1000, 1); }, 450, 0};
+  printf("thousands of rays a second: single calls; batches on");
+  for (const uint32_t count : threads) printf(" %u", count);
+  printf(" threads\n");
+  for (const ScalingEngine& engine : all_scaling_engines()) {
+    if (!is_wanted(options.scenes, rays.name) || !is_wanted(options.configs, engine.config)) continue;
+    for (const RayRow& row : engine.measure_rays(rays, threads)) {
+      same = same && row.same;
+      rows.push_back(report(row, threads));
     }
   }
   if (!same) fprintf(stderr, "bench: digests differ\n");

@@ -36,6 +36,16 @@ struct ScalingRow {
   bool same = true;               ///< whether all digests were equal
 };
 
+/// Rays through the world of a scene.
+struct RayRow {
+  std::string config, scene;
+  bool asleep = false;           ///< whether the bodies sleep
+  uint32_t rays = 0;             ///< number of rays
+  double single_ns = 0;          ///< median ns of all rays, one call for each
+  std::vector<double> batch_ns;  ///< median ns of one batch, for each of the numbers of threads that were asked for
+  bool same = true;              ///< whether all answers were equal
+};
+
 /// What sharing costs on this machine, ns.
 struct SharingCost {
   double loop = 0;   ///< a loop of two parts on two threads takes so much longer than one part
@@ -45,6 +55,8 @@ struct SharingCost {
 struct ScalingEngine {
   std::string config;
   std::function<ScalingRow(const ScalingScene& scene, const std::vector<uint32_t>& threads)> measure;
+  /// With the scene's bodies awake, and put to sleep; with few rays and with many.
+  std::function<std::vector<RayRow>(const ScalingScene& scene, const std::vector<uint32_t>& threads)> measure_rays;
 };
 using ScalingEngineList = std::vector<ScalingEngine>;
 

@@ -1,12 +1,11 @@
-#include "tests/bench/scaling/engine.h"
-
 #include <detent/recording.h>
 #include <detent/world.h>
 
 #include <algorithm>
 
+#include "tests/bench/scaling/rays.h"
+#include "tests/bench/scaling/settled.h"
 #include "tests/bench/timer.h"
-#include "tests/campaigns/stress/run_detent.h"
 #include "threads/thread_pool.h"
 
 namespace detent {
@@ -47,18 +46,6 @@ class Recorded {
   uint64_t start_ = 0;
 };
 
-/// A run of a scene up to its measured ticks.
-struct Settled {
-  std::unique_ptr<detent_stress::Run> run;
-
-  explicit Settled(const ScalingScene& scene) {
-    std::string problem;
-    run = stress_engine().make(scene.stage(), {}, problem);
-    for (uint32_t i = 0; i < scene.settling; ++i) step(world());
-  }
-  World& world() { return world_of(*run); }
-};
-
 ScalingRow measure(const ScalingScene& scene, const std::vector<uint32_t>& threads) {
   ScalingRow row;
   row.config = stress_engine().config;
@@ -92,7 +79,9 @@ ScalingRow measure(const ScalingScene& scene, const std::vector<uint32_t>& threa
 
 }  // namespace
 
-void add_scaling_engine(ScalingEngineList& engines) { engines.push_back({stress_engine().config, measure}); }
+void add_scaling_engine(ScalingEngineList& engines) {
+  engines.push_back({stress_engine().config, measure, measure_rays});
+}
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent
