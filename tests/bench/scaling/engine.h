@@ -41,8 +41,8 @@ struct RayRow {
   std::string config, scene;
   bool asleep = false;           ///< whether the bodies sleep
   uint32_t rays = 0;             ///< number of rays
-  double single_ns = 0;          ///< median ns of all rays, one call for each
-  std::vector<double> batch_ns;  ///< median ns of one batch, for each of the numbers of threads that were asked for
+  double single_ns = 0;          ///< least ns of all rays, one call for each
+  std::vector<double> batch_ns;  ///< least ns of one batch, for each of the numbers of threads that were asked for
   bool same = true;              ///< whether all answers were equal
 };
 

@@ -2,7 +2,6 @@
 #include <detent/query.h>
 #include <stdlib.h>
 
-#include <algorithm>
 #include <memory>
 
 #include "tests/bench/scaling/rays.h"
@@ -18,7 +17,7 @@ namespace {
 
 using namespace detent_bench;
 
-constexpr uint32_t k_repetitions = 21, k_ray_counts[] = {100, 1000};
+constexpr uint32_t k_repetitions = 51, k_ray_counts[] = {100, 1000};
 
 void require(bool fact) {
   if (!fact) abort();
@@ -52,19 +51,16 @@ void put_to_sleep(World& world) {
   require(step(world).awake == 0);
 }
 
-/// Times of a call that is made several times.
-struct Times {
-  std::vector<double> ns;
+/// The least time of a call that is made several times: the least affected by other load of the machine.
+struct LeastTime {
+  double ns = 0;
 
   template <class Call>
   void add(const Call& call) {
     const uint64_t start = monotonic_ns();
     call();
-    ns.push_back(static_cast<double>(monotonic_ns() - start));
-  }
-  double median() {
-    std::sort(ns.begin(), ns.end());
-    return ns[ns.size() / 2];
+    const double now = static_cast<double>(monotonic_ns() - start);
+    if (ns == 0 || now < ns) ns = now;
   }
 };
 
@@ -78,8 +74,8 @@ RayRow measure(World& world, uint32_t count, const std::vector<uint32_t>& thread
   std::vector<QueryAnswer> answers(count);
   std::vector<std::unique_ptr<detent_host::ThreadPool>> pools;
   for (const uint32_t workers : threads) pools.push_back(std::make_unique<detent_host::ThreadPool>(workers));
-  Times single;
-  std::vector<Times> batch(threads.size());
+  LeastTime single;
+  std::vector<LeastTime> batch(threads.size());
   // In turn, so that a change of the machine's load affects all of them.
   for (uint32_t repetition = 0; repetition < k_repetitions; ++repetition) {
     single.add([&] {
@@ -92,8 +88,8 @@ RayRow measure(World& world, uint32_t count, const std::vector<uint32_t>& thread
       for (uint32_t k = 0; k < count; ++k) row.same = row.same && answers[k].report.digest == alone[k].digest;
     }
   }
-  row.single_ns = single.median();
-  for (Times& times : batch) row.batch_ns.push_back(times.median());
+  row.single_ns = single.ns;
+  for (const LeastTime& time : batch) row.batch_ns.push_back(time.ns);
   world.hooks.tasks = {};
   return row;
 }
