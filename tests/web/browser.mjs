@@ -9,7 +9,7 @@ import { root } from './support.mjs';
 
 export const tool =
   process.env.DETENT_TOOL ?? fileURLToPath(new URL('build/x86-64-gcc/ports/host/detent/detent', root));
-const chromium = process.env.CHROMIUM ?? '/usr/bin/chromium';
+export const chromium = process.env.CHROMIUM ?? '/usr/bin/chromium';
 const packages = createRequire(new URL('ports/web/package.json', root));
 
 /** Why the tests of the page cannot run; false if they can. */
@@ -19,7 +19,7 @@ export const missing = !existsSync(chromium)
     ? `the detent tool is not built: ${tool}`
     : false;
 
-const flags = [
+export const flags = [
   '--headless',
   '--no-sandbox',
   '--disable-gpu',
