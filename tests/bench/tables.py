@@ -11,7 +11,7 @@ import re
 import sys
 from pathlib import Path
 
-PAGES = ["docs/bench/README.md", "docs/bench/worlds.md", "docs/toi_methods.md"]
+PAGES = ["docs/bench/README.md", "docs/bench/worlds.md", "docs/bench/web.md", "docs/toi_methods.md"]
 MARK = re.compile(r"<!-- tables\.py (\w+) -->\n\n(.*?\n)\n", re.DOTALL)
 
 BULLET_TURNING, BULLET_LINEAR = "btContinuousConvexCollision", "btSubsimplexConvexCast"
@@ -252,12 +252,45 @@ def worlds_verify(rows):
                   for row in rows])
 
 
-SOURCES = {"worlds": lambda path: json.loads(path.read_text()), "toi": Rows, "distance": Rows, "world": StepRows, "world-study": StepRows, "world-growth": StepRows}
+WEB = ["fx64", "fx64-O2", "f32", "f32-O2", "rapier", "rapier-simd", "jolt"]
+
+
+def by_scene(rows):
+    scenes = {}
+    for row in rows:
+        scenes.setdefault(row["scene"], {})[row["engine"]] = row
+    return scenes
+
+
+def web(rows):
+    return table(["scene", "bodies"] + [f"`{name}`" for name in WEB],
+                 [[scene, str(of["fx64"]["bodies"])] + [f'{three(of[name]["us_median"])}, {three(of[name]["us_p99"])}' for name in WEB]
+                  for scene, of in by_scene(rows).items()])
+
+
+def web_ratios(rows):
+    return table(["scene"] + [f"`{own}` / {peer}" for peer in ("Rapier", "Rapier SIMD", "Jolt") for own in ("fx64", "f32", "f32-O2")],
+                 [[scene] + [ratio(of[own], of[peer]) for peer in ("rapier", "rapier-simd", "jolt") for own in ("fx64", "f32", "f32-O2")]
+                  for scene, of in by_scene(rows).items()])
+
+
+def web_errors(rows):
+    names = ["fx64", "f32", "rapier", "rapier-simd", "jolt"]  # at -O2 the results are the same
+    lines = []
+    for scene, of in by_scene(rows).items():
+        for error in of["fx64"]["errors"]:
+            line = [error] + [f'{of[name]["errors"][error]:.3g}' for name in names]
+            if not lines or [scene.split(",")[0]] + line not in lines:
+                lines.append([scene.split(",")[0]] + line)
+    return table(["scene", "error"] + [f"`{name}`" for name in names], lines)
+
+
+SOURCES = {"worlds": lambda path: json.loads(path.read_text()), "web": lambda path: json.loads(path.read_text()), "toi": Rows, "distance": Rows, "world": StepRows, "world-study": StepRows, "world-growth": StepRows}
 TABLES = {make.__name__: (make, source) for make, source in
           [(toi, "toi"), (methods, "toi"), (methods_time, "toi"), (methods_wrong, "toi"), (methods_early, "toi"),
            (triangles, "toi"), (distance, "distance"), (world, "world"), (world_stages, "world"), (study, "world-study"),
            (study_equal, "world-study"), (growth, "world-growth"), (worlds_memory, "worlds"), (worlds_start, "worlds"),
-           (worlds_steps, "worlds"), (worlds_verify, "worlds")]}
+           (worlds_steps, "worlds"), (worlds_verify, "worlds"), (web, "web"), (web_ratios, "web"), (web_errors, "web")]}
 
 
 def main():
