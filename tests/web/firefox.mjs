@@ -34,7 +34,9 @@ export const browsers = {
   Firefox: {
     missing: !existsSync(firefox) && 'firefox-esr is not installed',
     command(folder, address) {
-      const lines = Object.entries(preferences).map(([key, value]) => `user_pref("${key}", ${JSON.stringify(value)});\n`);
+      const lines = Object.entries(preferences).map(
+        ([key, value]) => `user_pref("${key}", ${JSON.stringify(value)});\n`,
+      );
       writeFileSync(join(folder, 'user.js'), lines.join(''));
       return [firefox, '--headless', '--no-remote', '--profile', folder, address];
     },

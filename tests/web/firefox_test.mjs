@@ -51,7 +51,10 @@ before(() => {
     const file = join(folder, `${config}.rec`);
     const options = ['--config', config, '--print', 'ticks', '--json', '--record', file];
     const printed = execFileSync(tool, ['run', fileURLToPath(scene), ...options], { encoding: 'utf8' });
-    const rows = printed.trim().split('\n').map((line) => JSON.parse(line));
+    const rows = printed
+      .trim()
+      .split('\n')
+      .map((line) => JSON.parse(line));
     assets = rows.pop().assets.map((asset) => new Uint8Array(readFileSync(new URL(asset.file, scene))));
     recordings[config] = new Uint8Array(readFileSync(file));
     native[config] = rows.map((row) => row.digest);
@@ -91,7 +94,10 @@ test('the recording has every shape, every kind of terrain and every joint', { s
   replay.start(assets);
   const has = (types) => [...new Set(types)].sort();
   const shapes = replay.bodies().map(({ id }) => replay.body(id).def.shape);
-  assert.deepEqual(has(shapes.map(({ type }) => type)), has(shape.oneOf.map(({ properties }) => properties.type.const)));
+  assert.deepEqual(
+    has(shapes.map(({ type }) => type)),
+    has(shape.oneOf.map(({ properties }) => properties.type.const)),
+  );
   assert.deepEqual(has(replay.jointLines().map(({ type }) => type)), has(joint.properties.type.enum));
   // A mesh and a height field: their files begin with other bytes.
   const terrains = shapes.filter(({ type }) => type === 'terrain').map(({ asset }) => assets[asset].slice(0, 8));

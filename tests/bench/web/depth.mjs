@@ -1,6 +1,6 @@
 /**
- * How deep two convex shapes overlap: the least distance by which one must move so that they only touch. Exact for boxes,
- * icosahedra, balls and capsules, whose cores are polytopes, points and segments.
+ * How deep two convex shapes overlap: the least distance by which one must move so that they only touch. Exact for
+ * boxes, icosahedra, balls and capsules, whose cores are polytopes, points and segments.
  */
 import { rotate } from './scenes.mjs';
 
@@ -16,7 +16,11 @@ export function icosahedronPoints(radius) {
   const golden = (1 + Math.sqrt(5)) / 2;
   const [a, b] = [1, golden].map((each) => (radius * each) / Math.hypot(1, golden));
   const signs = [-1, 1].flatMap((s) => [-1, 1].map((t) => [s * a, t * b]));
-  return signs.flatMap(([s, t]) => [[0, s, t], [s, t, 0], [t, 0, s]]);
+  return signs.flatMap(([s, t]) => [
+    [0, s, t],
+    [s, t, 0],
+    [t, 0, s],
+  ]);
 }
 
 /** Triangles of a polytope whose faces' corners are those that lie farthest along each normal. */
@@ -31,7 +35,13 @@ function polytope(points, normals) {
     return corners.slice(2).map((corner, i) => [corners[0], corners[i + 1], corner]);
   });
   const edges = [];
-  for (const [a, b, c] of triangles) for (const [i, j] of [[a, b], [b, c], [c, a]]) if (i < j) edges.push([i, j]);
+  for (const [a, b, c] of triangles)
+    for (const [i, j] of [
+      [a, b],
+      [b, c],
+      [c, a],
+    ])
+      if (i < j) edges.push([i, j]);
   return { points, triangles, edges, normals: half(normals), radius: 0 };
 }
 /** One of each two directions that are opposite. */
@@ -41,26 +51,50 @@ export function coreOf(shape) {
   const none = { triangles: [], edges: [], normals: [] };
   if (shape.kind === 'sphere') return { ...none, points: [[0, 0, 0]], radius: shape.radius };
   if (shape.kind === 'capsule') {
-    return { ...none, points: [[0, -shape.half, 0], [0, shape.half, 0]], edges: [[0, 1]], radius: shape.radius };
+    return {
+      ...none,
+      points: [
+        [0, -shape.half, 0],
+        [0, shape.half, 0],
+      ],
+      edges: [[0, 1]],
+      radius: shape.radius,
+    };
   }
   if (shape.kind === 'box') {
     const [x, y, z] = shape.halfExtents;
     const points = [-1, 1].flatMap((i) => [-1, 1].flatMap((j) => [-1, 1].map((k) => [i * x, j * y, k * z])));
-    return polytope(points, [[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, 0, 0], [0, -1, 0], [0, 0, -1]]);
+    return polytope(points, [
+      [1, 0, 0],
+      [0, 1, 0],
+      [0, 0, 1],
+      [-1, 0, 0],
+      [0, -1, 0],
+      [0, 0, -1],
+    ]);
   }
   const points = icosahedronPoints(shape.radius);
   const near = (a, b) => a !== b && size(minus(a, b)) < 1.1 * shape.radius;
   const normals = [];
-  points.forEach((a, i) => points.forEach((b, j) => points.forEach((c, k) => {
-    if (i < j && j < k && near(a, b) && near(b, c) && near(c, a)) normals.push(plus(plus(a, b), c));
-  })));
-  return polytope(points, normals.map((normal) => normal.map((each) => each / size(normal))));
+  points.forEach((a, i) =>
+    points.forEach((b, j) =>
+      points.forEach((c, k) => {
+        if (i < j && j < k && near(a, b) && near(b, c) && near(c, a)) normals.push(plus(plus(a, b), c));
+      }),
+    ),
+  );
+  return polytope(
+    points,
+    normals.map((normal) => normal.map((each) => each / size(normal))),
+  );
 }
 
 /** The core at a pose: the argument of depth(). */
 export function placed(core, position, rotation) {
   const points = core.points.map((point) => plus(rotate(rotation, point), position));
-  const along = core.edges.map(([i, j]) => minus(points[j], points[i])).map((edge) => plus([0, 0, 0], edge, 1 / size(edge)));
+  const along = core.edges
+    .map(([i, j]) => minus(points[j], points[i]))
+    .map((edge) => plus([0, 0, 0], edge, 1 / size(edge)));
   const directions = along.filter((a, i) => !along.slice(0, i).some((b) => Math.abs(dot(a, b)) > 0.999999));
   return { ...core, points, directions, normals: core.normals.map((normal) => rotate(rotation, normal)) };
 }
@@ -126,7 +160,14 @@ function distance(a, b) {
   let least = Infinity;
   for (const [i, j] of b.edges) least = Math.min(least, segments(ends, [b.points[i], b.points[j]]));
   for (const triangle of b.triangles)
-    for (const point of a.points) least = Math.min(least, aboveTriangle(point, triangle.map((i) => b.points[i])));
+    for (const point of a.points)
+      least = Math.min(
+        least,
+        aboveTriangle(
+          point,
+          triangle.map((i) => b.points[i]),
+        ),
+      );
   return least;
 }
 

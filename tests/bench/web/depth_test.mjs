@@ -48,7 +48,8 @@ test('a depth is that by which a shape must be moved, and a shape that is moved 
       const axis = random.rotation().slice(0, 3);
       const size = Math.hypot(...axis);
       const extent = (core, sign) =>
-        Math.max(...core.points.map((p) => (sign * (p[0] * axis[0] + p[1] * axis[1] + p[2] * axis[2])) / size)) + core.radius;
+        Math.max(...core.points.map((p) => (sign * (p[0] * axis[0] + p[1] * axis[1] + p[2] * axis[2])) / size)) +
+        core.radius;
       least = Math.min(least, extent(a, 1) + extent(of(shape, position, rotation), -1));
     }
     assert.ok(found <= least + 1e-9 && found > least - 0.05, `${found} of ${least}`);

@@ -8,11 +8,12 @@ import { scenes } from './scenes.mjs';
 import { table } from './table.mjs';
 import { measure, summary } from './timing.mjs';
 
-const usage = `usage: ./bench web [--scenes LIST] [--engines LIST] [--module NAME=FILE]... [--repetitions N] [--seed S] [--json FILE]
+const usage = `usage: ./bench web [--scenes LIST] [--engines LIST] [--module NAME=FILE]... [--repetitions N] [--seed S]
+                   [--json FILE]
 
   --scenes       of ${scenes.map(({ name }) => name).join(', ')}; all of them by default
-  --engines      of fx64, f32 (the package), fx64-O2, f32-O2 (its modules at -O2), rapier, rapier-deterministic, rapier-simd,
-                 jolt; all of them by default
+  --engines      of fx64, f32 (the package), fx64-O2, f32-O2 (its modules at -O2), rapier, rapier-deterministic,
+                 rapier-simd, jolt; all of them by default
   --module       a further engine: the package with another module
   --repetitions  3: of each step the least time counts
   --seed         1: of the order in which engines take turns
@@ -54,10 +55,15 @@ for (const each of options.module) {
 }
 /** What an option lists, of what is known; all of it by default. */
 const wanted = (name, known) =>
-  options[name]?.split(',').map((each) => (known.includes(each) ? each : refuse(`--${name}: ${each} is none of ${known.join(', ')}`))) ??
+  options[name]
+    ?.split(',')
+    .map((each) => (known.includes(each) ? each : refuse(`--${name}: ${each} is none of ${known.join(', ')}`))) ??
   known;
 const names = wanted('engines', Object.keys(makers));
-const chosen = wanted('scenes', scenes.map(({ name }) => name)).map((name) => scenes.find((scene) => scene.name === name));
+const chosen = wanted(
+  'scenes',
+  scenes.map(({ name }) => name),
+).map((name) => scenes.find((scene) => scene.name === name));
 const run = { repetitions: count('repetitions'), seed: count('seed') };
 
 const engines = [];

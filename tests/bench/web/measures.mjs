@@ -5,7 +5,7 @@ import { rotate } from './scenes.mjs';
 const apart = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 const radiusOf = ({ points, radius }) => radius + Math.max(...points.map((point) => Math.hypot(...point)));
 
-/** By name: a measure of the scene, which sees poses from time to time. The greatest value counts, or with `last` the last. */
+/** By name: a measure of a scene's poses, which is taken from time to time. The greatest value counts, or `last`. */
 const kinds = {
   /** m: of two bodies; not of the two of a joint. */
   penetration(scene) {
@@ -31,13 +31,17 @@ const kinds = {
   /** m: of a joint's two anchors. */
   gap: (scene) => (poses) => Math.max(...gaps(scene, poses)),
   /** The sum of all gaps over the length of the links. */
-  stretch: (scene) => (poses) => gaps(scene, poses).reduce((sum, each) => sum + each) / (0.5 * (scene.joints.length - 1)),
+  stretch: (scene) => (poses) =>
+    gaps(scene, poses).reduce((sum, each) => sum + each) / (0.5 * (scene.joints.length - 1)),
   /** Bodies that are outside the walls. */
   escaped: () => (poses) =>
     poses.filter(({ position: [x, y, z] }, i) => i > 4 && (Math.max(Math.abs(x), Math.abs(z)) > 5 || y < 0)).length,
   /** Bodies that are turned by less than 60 degrees at the end. */
   standing: (scene) =>
-    last((poses) => poses.filter(({ rotation }, i) => !scene.bodies[i].fixed && rotate(rotation, [0, 1, 0])[1] > 0.5).length),
+    last(
+      (poses) =>
+        poses.filter(({ rotation }, i) => !scene.bodies[i].fixed && rotate(rotation, [0, 1, 0])[1] > 0.5).length,
+    ),
   /** m: along z. */
   sideways: () => (poses) => Math.max(...poses.map(({ position }) => Math.abs(position[2]))),
 };

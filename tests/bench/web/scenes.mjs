@@ -1,6 +1,6 @@
 /**
- * The scenes, as data that every engine can make: bodies with a shape and a pose, and joints by anchors in the bodies' frames.
- * Units: m, s, rad. Y is up.
+ * The scenes, as data that every engine can make: bodies with a shape and a pose, and joints by anchors in the bodies'
+ * frames. Units: m, s, rad. Y is up.
  */
 
 /** The generator xorshift32: the same numbers on every machine. */
@@ -10,7 +10,11 @@ export class Random {
   }
   /** In [0, 1). */
   next() {
-    for (const [left, by] of [[true, 13], [false, 17], [true, 5]])
+    for (const [left, by] of [
+      [true, 13],
+      [false, 17],
+      [true, 5],
+    ])
       this.state = (this.state ^ (left ? this.state << by : this.state >>> by)) >>> 0;
     return this.state / 2 ** 32;
   }
@@ -89,7 +93,11 @@ function chain(links, ratio) {
     bodies.push(next);
   };
   for (let i = 0; i < links; ++i)
-    hang(body(capsule(0.05, 0.2), [i / 2 + 0.25, 0, 0], about([0, 0, 1], -Math.PI / 2)), [0, i && 0.25, 0], [0, -0.25, 0]);
+    hang(
+      body(capsule(0.05, 0.2), [i / 2 + 0.25, 0, 0], about([0, 0, 1], -Math.PI / 2)),
+      [0, i && 0.25, 0],
+      [0, -0.25, 0],
+    );
   const weight = body(box(0.3, 0.3, 0.3), [links / 2 + 0.3, 0, 0]);
   const link = Math.PI * 0.05 ** 2 * 0.4 + (4 / 3) * Math.PI * 0.05 ** 3; // m^3
   weight.density = (1000 * ratio * link) / 0.6 ** 3;
@@ -150,7 +158,15 @@ function figures(count) {
     const rotation = about([Math.cos(angle), 0, Math.sin(angle)], random.between(0.05, 0.2));
     for (const [shape, place] of figure.parts) {
       const turned = rotate(rotation, [place[0], place[1] - 1, place[2]]);
-      bodies.push({ ...body(shape, at.map((each, k) => each + turned[k]), rotation), figure: i, part: bodies.length - first });
+      bodies.push({
+        ...body(
+          shape,
+          at.map((each, k) => each + turned[k]),
+          rotation,
+        ),
+        figure: i,
+        part: bodies.length - first,
+      });
     }
     for (const [type, a, b, point, lower, upper] of figure.joints) {
       const from = (part) => point.map((each, k) => each - figure.parts[part][1][k]);

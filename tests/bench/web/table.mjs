@@ -1,5 +1,6 @@
 /** The rows as a table in Markdown: of each scene the engines' times, their ratios, and their errors. */
-const short = (value) => (value === 0 ? '0' : value < 1e-3 ? value.toExponential(1) : String(Number(value.toPrecision(3))));
+const short = (value) =>
+  value === 0 ? '0' : value < 1e-3 ? value.toExponential(1) : String(Number(value.toPrecision(3)));
 const us = (value) => (value < 100 ? String(Number(value.toPrecision(3))) : Math.round(value).toLocaleString('en'));
 
 export function table(rows) {

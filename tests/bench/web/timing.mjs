@@ -18,7 +18,8 @@ function shuffled(list, random) {
 function play(engines, scene, random, each) {
   const worlds = engines.map((engine) => engine.create(scene));
   for (let first = 0; first < scene.steps; first += turn)
-    for (const i of shuffled([...engines.keys()], random)) each(i, worlds[i], first, Math.min(first + turn, scene.steps));
+    for (const i of shuffled([...engines.keys()], random))
+      each(i, worlds[i], first, Math.min(first + turn, scene.steps));
   const ends = worlds.map((world) => JSON.stringify(world.poses()));
   const settings = worlds.map((world) => world.settings());
   for (const world of worlds) world.destroy();
@@ -26,8 +27,8 @@ function play(engines, scene, random, each) {
 }
 
 /**
- * Of each engine: us of each step, the least of the repetitions, and the errors. The first run is not timed: it warms the
- * engines up and is looked at. All runs of an engine must end with the same poses.
+ * Of each engine: us of each step, the least of the repetitions, and the errors. The first run is not timed: it warms
+ * the engines up and is looked at. All runs of an engine must end with the same poses.
  */
 export function measure(engines, scene, { repetitions, seed }) {
   const random = new Random(seed);

@@ -13,7 +13,12 @@ function cookHulls(tool) {
   try {
     return hullRadii.map((radius) => {
       const files = ['hull.obj', 'hull.hull'].map((name) => join(folder, name));
-      writeFileSync(files[0], icosahedronPoints(radius).map((point) => `v ${point.join(' ')}\n`).join(''));
+      writeFileSync(
+        files[0],
+        icosahedronPoints(radius)
+          .map((point) => `v ${point.join(' ')}\n`)
+          .join(''),
+      );
       const said = execFileSync(tool, ['cook', '--json', '--exact', ...files], { encoding: 'utf8' });
       // All axes of an icosahedron are principal, so the tool has no reason to turn it.
       if (JSON.parse(said).rotation[3] !== 1) throw new Error('a hull has another frame than its points');

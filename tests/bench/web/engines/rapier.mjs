@@ -22,7 +22,10 @@ export async function rapier({ name, source }) {
       const bodies = scene.bodies.map(({ shape, position, rotation, density, fixed }) => {
         const desc = fixed ? api.RigidBodyDesc.fixed() : api.RigidBodyDesc.dynamic();
         const body = world.createRigidBody(
-          desc.setTranslation(...position).setRotation(quaternion(rotation)).setCanSleep(false),
+          desc
+            .setTranslation(...position)
+            .setRotation(quaternion(rotation))
+            .setCanSleep(false),
         );
         const collider = shapes[shape.kind](shape).setDensity(density).setFriction(0.6);
         if (scene.collisions === false) collider.setCollisionGroups(0);
@@ -32,9 +35,7 @@ export async function rapier({ name, source }) {
       for (const { type, a, b, anchorA, anchorB, lower, upper } of scene.joints) {
         const [from, to] = [vector(anchorA), vector(anchorB)];
         const data =
-          type === 'hinge'
-            ? api.JointData.revolute(from, to, { x: 1, y: 0, z: 0 })
-            : api.JointData.spherical(from, to);
+          type === 'hinge' ? api.JointData.revolute(from, to, { x: 1, y: 0, z: 0 }) : api.JointData.spherical(from, to);
         const joint = world.createImpulseJoint(data, bodies[a], bodies[b], true);
         joint.setContactsEnabled(false);
         if (type === 'hinge') joint.setLimits(lower, upper);
