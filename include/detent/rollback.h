@@ -265,13 +265,13 @@ class RollbackSession {
   RollbackDef def_ = {};
   TickMaker maker_ = {};
   GameState game_ = {};
-  SnapshotRing states_;               ///< without `sparse_`
-  SparseRollback* sparse_ = nullptr;  ///< null: all bodies are simulated again
-  uint8_t* games_ = nullptr;          ///< game states of the ticks in `states_`
-  uint8_t* inputs_ = nullptr;         ///< [tick][player]: the known or predicted input
-  uint64_t* stamps_ = nullptr;        ///< [tick][player]: tick + 1 if the input is known
-  Checksum* sums_ = nullptr;          ///< [tick][machine]: this machine first, then each player
-  uint32_t kept_ = 0;                 ///< number of ticks whose inputs and checksums are kept
+  SnapshotRing states_;                                ///< without `sparse_`
+  [[maybe_unused]] SparseRollback* sparse_ = nullptr;  ///< null: all bodies are simulated again
+  uint8_t* games_ = nullptr;                           ///< game states of the ticks in `states_`
+  uint8_t* inputs_ = nullptr;                          ///< [tick][player]: the known or predicted input
+  uint64_t* stamps_ = nullptr;                         ///< [tick][player]: tick + 1 if the input is known
+  Checksum* sums_ = nullptr;                           ///< [tick][machine]: this machine first, then each player
+  uint32_t kept_ = 0;                                  ///< number of ticks whose inputs and checksums are kept
   bool begun_ = false;
   uint64_t start_ = 0;           ///< the tick at `begin`
   uint64_t tick_ = 0;            ///< ticks made

@@ -140,6 +140,7 @@ for (const name of [
   'JointDef',
   'BodyDef',
   'Explosion',
+  'RollbackDef',
   'QueryFilter',
 ]) {
   test(`the fields of ${name} have one order in C++ and in TypeScript`, () => {

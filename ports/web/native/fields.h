@@ -1,5 +1,6 @@
 #pragma once
 #include <detent/query.h>
+#include <detent/rollback.h>
 #include <detent/world.h>
 
 #include "desk.h"
@@ -159,6 +160,16 @@ void visit(F& f, QueryFilter& filter) {
   f.word(filter.category);
   f.word(filter.mask);
   visit(f, filter.ignore);
+}
+template <class F>
+void visit(F& f, RollbackDef& def) {
+  f.word(def.players);
+  f.word(def.local);
+  f.word(def.input_bytes);
+  f.word(def.delay);
+  f.word(def.window);
+  f.word(def.checksum_interval);
+  f.word(def.game_bytes);
 }
 
 /// The report's counts, by groups.

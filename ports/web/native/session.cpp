@@ -103,7 +103,7 @@ Status start_session(Session& session, Player& player, uint32_t byte_count, cons
 }
 
 Status record_session(Session& session, const RecordingDef& def) {
-  if (session.recording.data != nullptr) return Status::bad_argument;
+  if (session.recording.data != nullptr || session.rollback != nullptr) return Status::bad_argument;
   if (!make_recorder(session, {write_recording, &session.recording})) return Status::buffer_too_small;
   return session.recorder->begin(def);
 }

@@ -25,6 +25,7 @@ struct Session {
   Recorder* recorder = nullptr;  ///< makes all calls; null in a replay, whose world only its recording changes
   uint8_t recorder_buffer[k_recording_buffer_bytes];
   Bytes recording = {};
+  const void* rollback = nullptr;  ///< the rollback session of the world, which then cannot be recorded
 };
 
 /// Makes an empty world. `asset_at` has `asset_count` pairs of an address and a number of bytes, which the caller
@@ -36,7 +37,8 @@ void close_session(Session& session);
 /// ask for gigabytes.
 Status start_session(Session& session, Player& player, uint32_t byte_count, const uint32_t* asset_at,
                      uint32_t asset_count);
-/// Begins a recording of all later calls. Errors: bad_argument (another one has not ended), as Recorder::begin().
+/// Begins a recording of all later calls. Errors: bad_argument (another one has not ended; a rollback
+/// session), as Recorder::begin().
 Status record_session(Session& session, const RecordingDef& def);
 
 }  // namespace detent_web

@@ -125,6 +125,15 @@ export const explosion = record<T.Explosion, T.Full<T.Explosion>>({
   radius: number(10),
   impulse: number(100),
 });
+export const rollbackDef = record<T.RollbackDef & { gameBytes: number }, unknown>({
+  players: number(2),
+  local: number(1),
+  inputBytes: number(1),
+  delay: number(),
+  window: number(8),
+  checksumInterval: number(1),
+  gameBytes: number(),
+} as never);
 
 export const bodyState = record<never, T.BodyState>({
   def: bodyDef,
@@ -270,3 +279,11 @@ export const tickResult = record<never, T.TickResult>({
   calls: number(),
   report: stepReport,
 });
+
+export const rollbackReport = record<never, T.RollbackReport>({
+  tick: number(),
+  ticksAgain: number(),
+  wentBack: number(),
+});
+export const tickChecksum = record<never, T.TickChecksum>({ tick: number(), checksum: number() });
+export const desync = record<never, T.Desync>({ tick: number(), player: number(), own: number(), theirs: number() });

@@ -10,6 +10,7 @@ export { DetentError, type ModuleSource } from './module.js';
 export { WorldView } from './view.js';
 export { World } from './world.js';
 export { Replay } from './replay.js';
+export { RollbackSession, type TickMaker } from './rollback.js';
 
 /** The library in one configuration. All its worlds share one memory. */
 export class Detent {

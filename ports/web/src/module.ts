@@ -32,6 +32,14 @@ async function compile(source: ModuleSource): Promise<WebAssembly.Module> {
   return WebAssembly.compile(source as BufferSource);
 }
 
+/** A module that imports a function of one number, and exports it: so the function can be put into a table. */
+const relay = Uint8Array.of(
+  ...[0, 0x61, 0x73, 0x6d, 1, 0, 0, 0], // the header
+  ...[1, 5, 1, 0x60, 1, 0x7f, 0], // types: (i32) -> ()
+  ...[2, 5, 1, 0, 0, 0, 0], // imports: a function of this type, without names
+  ...[7, 4, 1, 0, 0, 0], // exports: the same function
+);
+
 /** Where bytes lie in the module's memory. */
 export interface Place {
   address: number;
@@ -40,7 +48,10 @@ export interface Place {
 
 export class Module {
   readonly native: Native;
+  /** Functions that the module calls, by the address that it passes. They must not throw. */
+  readonly callbacks = new Map<number, () => void>();
   private readonly memory: WebAssembly.Memory;
+  private relayAt = 0;
 
   private constructor(instance: WebAssembly.Instance) {
     this.native = instance.exports as unknown as Native;
@@ -51,12 +62,28 @@ export class Module {
     return new Module(await WebAssembly.instantiate(await compile(source), {}));
   }
 
+  /** The address of a function that the module may call: it runs the callback of the address that it gets. */
+  callbackAddress(): number {
+    if (this.relayAt === 0) {
+      const run = (address: number) => this.callbacks.get(address)!();
+      const { exports } = new WebAssembly.Instance(new WebAssembly.Module(relay), { '': { '': run } });
+      const table = this.native['__indirect_function_table'] as unknown as WebAssembly.Table;
+      this.relayAt = table.grow(1);
+      table.set(this.relayAt, exports['']);
+    }
+    return this.relayAt;
+  }
+
   /** Makes a call that returns a status; throws if it is not ok. */
   call(name: string, ...args: (number | bigint)[]): void {
     this.check(this.native[name]!(...args));
   }
   check(code: number): void {
     if (code !== 0) throw new DetentError(statuses[code] ?? 'bad_argument', this.statusText(code));
+  }
+  /** Throws this status unless `allowed`. */
+  require(allowed: boolean, status: Status): void {
+    if (!allowed) this.check(statuses.indexOf(status));
   }
   statusText(code: number): string {
     return this.text(this.native['status_text']!(code));

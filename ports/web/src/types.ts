@@ -346,6 +346,58 @@ export interface ReplayProblem {
   digestReplayed: bigint;
 }
 
+/** The settings of a rollback session. All but `local` and `delay` must be the same on every machine. */
+export interface RollbackDef {
+  /** 1 to 16; 2 if it is left out. */
+  players?: number;
+  /** Bit p: player p plays on this machine; 0: the machine only watches. Player 0 if it is left out. */
+  local?: number;
+  /** Bytes of a player's input for a tick, 1 to 1024; 1 if it is left out. */
+  inputBytes?: number;
+  /** Ticks from a local input to the tick that uses it, at most the window; 0 if it is left out. */
+  delay?: number;
+  /** Ticks that may be made with predicted inputs, 1 to 64; 8 if it is left out. */
+  window?: number;
+  /** A checksum is taken before every tick that is a multiple of it; 0: none; 1 if it is left out. */
+  checksumInterval?: number;
+  /** The game's own state at the start: the session copies it, restores it with the world, and has it in its checksums. */
+  game?: Uint8Array;
+}
+/** The inputs of a tick. */
+export interface TickInputs {
+  /** Ticks that the world has completed. */
+  tick: number;
+  /** The input of each player. */
+  inputs: Uint8Array[];
+  /** Bit p: the input of player p is a prediction, because it has not arrived. */
+  predicted: number;
+  /** The tick was made before: the game must not repeat sounds and other effects. */
+  again: boolean;
+  /** The game's own state, to read and to change; it is valid until the next call that allocates memory. */
+  game: Uint8Array;
+}
+/** Ticks that one call has made or repeated. */
+export interface RollbackReport {
+  /** Ticks that the world has completed. */
+  tick: number;
+  ticksAgain: number;
+  /** The first repeated tick, if there is one. */
+  wentBack: number;
+}
+/** A checksum of 32 bits of the state after `tick` ticks. */
+export interface TickChecksum {
+  tick: number;
+  checksum: number;
+}
+/** The first compared tick after which another player's state differs from this machine's. */
+export interface Desync {
+  /** Ticks completed. */
+  tick: number;
+  player: number;
+  own: number;
+  theirs: number;
+}
+
 /** Names of Status (status.h). */
 export const statuses = [
   'ok',

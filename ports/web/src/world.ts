@@ -2,6 +2,7 @@
 import { type Codec, number, quat, takeList, vec3 } from './codec.js';
 import * as fields from './fields.js';
 import type { Module, Place } from './module.js';
+import { RollbackSession, type TickMaker } from './rollback.js';
 import type * as T from './types.js';
 import { WorldView } from './view.js';
 
@@ -270,6 +271,14 @@ export class World extends WorldView {
     } finally {
       this.module.free(place.address);
     }
+  }
+
+  /**
+   * Begins a rollback session with the present state, which must have the same digest on every machine. The session ends
+   * with its end(), which must be called before destroy(); until then the world cannot be recorded.
+   */
+  beginRollback(def: T.RollbackDef, make: TickMaker): RollbackSession {
+    return RollbackSession.begin(this, this.module, this.session, def, make);
   }
 
   /** Records all later calls and steps, until endRecording(). */
