@@ -1,7 +1,8 @@
 /** Rollback sessions: machines that agree over a bad network, and calls that are refused. */
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { configs, load, shapes } from './support.mjs';
+import { configs, load, root, shapes } from './support.mjs';
 
 const { box, halfSpace, sphere } = shapes;
 
@@ -371,4 +372,27 @@ test('sessions that are ended give their memory back', async () => {
   const before = own.module.native.memory.buffer.byteLength;
   for (let i = 0; i < 50; ++i) one();
   assert.equal(own.module.native.memory.buffer.byteLength, before);
+});
+
+test('the example of the README plays a match of two machines that agree', () => {
+  const readme = readFileSync(new URL('ports/web/README.md', root), 'utf8');
+  const [begin, frame, receive] = /## Rollback[^]*?```js\n([^]*?)```/.exec(readme)[1].split(/^\/\/ .*:\n/m);
+  const body = `${begin}
+    return { session, frame: (keys) => { ${frame} }, receive: (message) => { ${receive} } };`;
+  const machines = [0, 1].map((me) => {
+    const { world, balls } = start(detent);
+    const sent = [];
+    const send = (message) => sent.push(message);
+    return { world, sent, ...new Function('world', 'balls', 'me', 'other', 'send', body)(world, balls, me, 1 - me, send) };
+  });
+  for (let tick = 0; tick < 60; ++tick) {
+    machines.forEach(({ frame: make }, me) => make(tick % 7 < 3 + me ? 1 : 0));
+    machines.forEach(({ receive: take }, me) => machines[1 - me].sent.splice(0).forEach(take));
+  }
+  const [a, b] = machines;
+  assert.ok([a, b].some(({ session }) => session.correct().ticksAgain > 0));
+  assert.equal(a.session.confirmedTick(), 60);
+  assert.equal(a.world.digest(), b.world.digest());
+  assert.equal(a.session.desync(), undefined);
+  close(machines);
 });
