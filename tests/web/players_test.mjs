@@ -99,12 +99,16 @@ test('a setting of one machine only is named with its tick, and a new match agre
   await page.close();
 });
 
-test('without delay and loss nothing is rolled back', options, async () => {
+test('without delay and loss nothing is rolled back; with loss, something is', options, async () => {
   const page = await open('fast&delay=0&jitter=0&loss=0&pause=600');
   await paused(page);
   assert.deepEqual(await both(page, 'ticks rolled back'), [0, 0]);
   for (const count of await both(page, 'predicted ticks')) assert.ok(count <= 2, `${count} ticks predicted`);
   await page.close();
+  const lossy = await open('fast&delay=0&jitter=0&loss=40&pause=600');
+  await paused(lossy);
+  for (const count of await both(lossy, 'ticks rolled back')) assert.ok(count > 10, `${count} ticks rolled back`);
+  await lossy.close();
 });
 
 test('beyond the window the machines wait, and still agree', options, async () => {
@@ -122,7 +126,7 @@ test('a key is a player’s input, and the other machine rolls back', options, a
   await agrees(page, 60);
   const before = await both(page, 'ticks rolled back');
   await agrees(page, 120);
-  assert.deepEqual(await both(page, 'ticks rolled back'), before); // nobody presses a key
+  assert.deepEqual(await both(page, 'ticks rolled back'), before); // no key is pressed
   await page.keyboard.down('d');
   await page.waitForFunction(
     (count) => parseInt(document.querySelectorAll('.player')[1].querySelectorAll('td')[5].textContent) > count,

@@ -31,7 +31,7 @@ const makerOf =
     });
     world.step();
   };
-const def = { inputBytes: 2, game: new Uint8Array(2) };
+const def = { inputBytes: 2, game: Uint8Array.of(3, 250) };
 
 /** A link that loses, delays and so reorders messages. */
 class Link {
@@ -116,7 +116,7 @@ function play(detent, seed, ticks, network, options = {}, before = () => {}) {
 function alone(detent, seed, ticks) {
   const { world, balls } = start(detent);
   const make = makerOf(balls);
-  const game = new Uint8Array(2);
+  const game = def.game.slice();
   const inputOf = inputs(seed);
   for (let tick = 0; tick < ticks; ++tick) make(world, { tick, inputs: [inputOf(0, tick), inputOf(1, tick)], game });
   return { world, game };

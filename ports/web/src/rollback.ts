@@ -1,7 +1,14 @@
 /** Rollback sessions: players on several machines, whose inputs arrive late. */
 import * as fields from './fields.js';
 import type { Module } from './module.js';
-import { statuses, type Desync, type RollbackDef, type RollbackReport, type TickChecksum, type TickInputs } from './types.js';
+import {
+  statuses,
+  type Desync,
+  type RollbackDef,
+  type RollbackReport,
+  type TickChecksum,
+  type TickInputs,
+} from './types.js';
 import type { World } from './world.js';
 
 /**

@@ -1,5 +1,6 @@
 /** The match of the page of two players: two balls among crates, within walls. */
-import { box, halfSpace, sphere, type BodyId, type Detent, type TickInputs, type Vec3, type World } from '../src/index.js';
+import { box, halfSpace, sphere } from '../src/index.js';
+import type { BodyId, Detent, TickInputs, Vec3, World } from '../src/index.js';
 import type { Extent } from './extent.js';
 
 /** The bits of a player's input, which is one byte. */
@@ -43,7 +44,13 @@ export function startMatch(detent: Detent): Match {
     }
   }
   for (const [x, z] of [[-5, -5], [5, -5], [-5, 5], [5, 5]] as const)
-    world.createBody({ position: [x, 0.4, z], shape: sphere(0.4), density: 300, linearDamping: 0.2, angularDamping: 0.2 });
+    world.createBody({
+      position: [x, 0.4, z],
+      shape: sphere(0.4),
+      density: 300,
+      linearDamping: 0.2,
+      angularDamping: 0.2,
+    });
   return { world, balls };
 }
 

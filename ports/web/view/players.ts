@@ -15,7 +15,7 @@ const budget = { clock: 24, fast: 100 };
 const aimTicks = 45;
 const seed = 1;
 
-/** The address may have settings: #delay=100&jitter=20&loss=5&fast, and a tick at which the match is paused: pause=300. */
+/** Of the address: settings (#delay=100&jitter=20&loss=5&fast), and a tick at which the match is paused (pause=300). */
 const given = new URLSearchParams(location.hash.slice(1));
 
 const keys: Record<string, number>[] = [
@@ -170,7 +170,7 @@ class Players {
     const differs = Math.min(...this.machines.map(({ desync }) => desync?.tick ?? Infinity));
     const pill = element('verdict');
     pill.textContent = differs === Infinity ? `both agree after ${agreed} ticks` : `they differ since tick ${differs}`;
-    pill.title = 'Each machine compares the checksums of the other one with its own, after each tick that no input can change.';
+    pill.title = 'Each machine compares the checksums of the other one with its own, tick by tick.';
     pill.className = differs === Infinity ? 'good' : 'bad';
     Object.assign(document.body.dataset, { verdict: pill.className, agreed, differs });
   }
