@@ -107,7 +107,7 @@ test('without delay and loss nothing is rolled back; with loss, something is', o
   await page.close();
   const lossy = await open('fast&delay=0&jitter=0&loss=40&pause=600');
   await paused(lossy);
-  for (const count of await both(lossy, 'ticks rolled back')) assert.ok(count > 10, `${count} ticks rolled back`);
+  for (const count of await both(lossy, 'ticks rolled back')) assert.ok(count > 0, `${count} ticks rolled back`);
   await lossy.close();
 });
 
