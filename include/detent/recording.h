@@ -13,7 +13,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// Version of the byte layout. The version of the computation is separate (`k_simulation_version`).
-inline constexpr uint32_t k_recording_format_version = 5;
+inline constexpr uint32_t k_recording_format_version = 6;
 /// Size of the working buffer of a Recorder or Player, bytes: one chunk. No alignment is needed.
 inline constexpr uint32_t k_recording_buffer_bytes = 544;
 

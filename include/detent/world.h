@@ -57,7 +57,11 @@ struct WorldDef {
   /// joints.
   uint32_t substeps = 0;
   uint32_t substeps_max = 32;  ///< largest number that the step chooses if `substeps` is 0, [1, 64]
-  uint32_t iterations = 1;     ///< solver iterations over the contacts in a substep, [1, 64]
+  /// The accuracy of contacts at rest: the step chooses so many substeps that a contact sinks under its load by at most
+  /// this fraction of the smaller extent, [2^-12, 2^-3]. A quarter of the value takes about twice the substeps. Islands
+  /// of more than 1,000 contacts take fewer substeps than that.
+  Real resting_penetration = Real(1.0 / 144);
+  uint32_t iterations = 1;  ///< solver iterations over the contacts in a substep, [1, 64]
   /// The iterations of a substep end early if the last iteration changed no velocity by more than 2^-convergence g h.
   /// Here h is the length of the substep, and g the gravity, but at least 1 m/s^2. Range: [0, 30].
   uint32_t convergence = 12;

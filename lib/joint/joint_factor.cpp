@@ -58,47 +58,75 @@ struct Response {
   }
 };
 
-/// Calls `visit` with the sizes of blocks. For the common case, joints with only the three rows of the anchor points,
-/// the sizes are compile-time constants.
+/// Calls `visit` with the rows of two joints: the height and the width of a block. The usual widths are compile-time
+/// constants, and so are both sizes of two joints with only the three rows of the anchor points.
 #if defined(__OPTIMIZE_SIZE__)
-template <class Visit, class... Sizes>
-inline void with_sizes(const Visit& visit, Sizes... sizes) {
-  visit(sizes...);
+template <class Visit>
+inline void with_sizes(uint32_t height, uint32_t width, const Visit& visit) {
+  visit(height, width);
 }
 #else
-struct Three {  ///< a size known at compile time
-  explicit constexpr Three(uint32_t) {}
-  constexpr operator uint32_t() const { return 3; }
+template <uint32_t k_rows>
+struct ConstantRows {
+  constexpr operator uint32_t() const { return k_rows; }
 };
-template <class Visit, class... Sizes>
-inline void with_sizes(const Visit& visit, Sizes... sizes) {
-  if ((... && (sizes == 3)))
-    visit(Three(sizes)...);
+template <class Visit>
+inline void with_sizes(uint32_t height, uint32_t width, const Visit& visit) {
+  constexpr ConstantRows<3> k_points;
+  if (width == 3 && height == 3)
+    visit(k_points, k_points);
+  else if (width == 3)
+    visit(height, k_points);
+  else if (width == 5)
+    visit(height, ConstantRows<5>());
+  else if (width == 6)
+    visit(height, ConstantRows<6>());
   else
-    visit(sizes...);
+    visit(height, width);
 }
 #endif
 
 using Rows = Real[k_joint_rows_max][k_joint_rows_max];
 
-/// The product of a column of a block and a vector.
-template <class Height>
-inline Real product(Height height, uint32_t width, const Real* block, uint32_t i, const Real* vector) {
-  const uint32_t count = height;
+/// The product of the first `count` elements of two vectors; the elements of the first are `stride` apart.
+template <class Count, class Stride>
+DETENT_SHARED inline Real product(Count count, Stride stride, const Real* a, const Real* b) {
+  const uint32_t elements = count, apart = stride;
   ProductSum sum;
-  for (uint32_t k = 0; k < count; ++k) sum.add(block[k * width + i], vector[k]);
+  DETENT_UNROLL
+  for (uint32_t k = 0; k < elements; ++k) sum.add(a[k * apart], b[k]);
   return sum.value();
+}
+
+/// Calls visit(i, x_i) for the elements from `first` on of x = B^T v, with the block B.
+template <class Height, class Width, class Visit>
+inline void each_product(Height height, Width width, const Real* block, const Real* v, uint32_t first,
+                         const Visit& visit) {
+  const uint32_t rows = height, columns = width;
+#if defined(__OPTIMIZE_SIZE__)
+  for (uint32_t i = first; i < columns; ++i) visit(i, product(rows, columns, block + i, v));
+#else
+  ProductSum sum[k_joint_rows_max];
+  for (uint32_t k = 0; k < rows; ++k) {
+    DETENT_UNROLL
+    for (uint32_t i = first; i < columns; ++i) sum[i].add(block[k * columns + i], v[k]);
+  }
+  DETENT_UNROLL
+  for (uint32_t i = first; i < columns; ++i) visit(i, sum[i].value());
+#endif
 }
 
 /// Multiplies a coupling's block by L^-1 of the joint's own block. Sets `scaled` to the transpose of the result,
 /// divided by the pivots.
 template <class Height, class Width>
 inline void divide_block(const JointWork& work, Height height, Width width, Real* block, Rows& scaled) {
-  for (uint32_t k = 1; k < height; ++k) {
-    for (uint32_t i = 0; i < width; ++i) block[k * width + i] -= product(k, width, block, i, work.response[k]);
+  const uint32_t rows = height, columns = width;
+  for (uint32_t k = 1; k < rows; ++k) {
+    each_product(k, width, block, work.response[k], 0, [&](uint32_t i, Real part) { block[k * columns + i] -= part; });
   }
-  for (uint32_t k = 0; k < height; ++k) {
-    for (uint32_t i = 0; i < width; ++i) scaled[i][k] = multiply(block[k * width + i], work.inverse[k]);
+  for (uint32_t k = 0; k < rows; ++k) {
+    DETENT_UNROLL
+    for (uint32_t i = 0; i < columns; ++i) scaled[i][k] = multiply(block[k * columns + i], work.inverse[k]);
   }
 }
 
@@ -106,7 +134,7 @@ inline void divide_block(const JointWork& work, Height height, Width width, Real
 void make_up_product(uint32_t rows, const Real* block, const Rows& scaled, JointWork& third, JointWork& other) {
   for (uint32_t i = 0; i < third.rows; ++i) {
     for (uint32_t m = 0; m < other.rows; ++m) {
-      const Real size = abs(product(rows, third.rows, block, i, scaled[m]));
+      const Real size = abs(product(rows, third.rows, block + i, scaled[m]));
       third.response[i][i] += size;
       other.response[m][m] += size;
     }
@@ -263,15 +291,12 @@ void JointFactor::eliminate(JointWork& work) {
     const uint32_t index = coupling.joint[1];
     JointWork& other = stage_.work[index];
     Rows scaled = {};  // initialised, because GCC does not see that every element is written before it is read
-    with_sizes(
-        [&](auto height, auto width) {
-          divide_block(work, height, width, block_of(coupling), scaled);
-          for (uint32_t i = 0; i < width; ++i) {
-            for (uint32_t m = 0; m <= i; ++m)
-              other.response[i][m] -= product(height, width, block_of(coupling), i, scaled[m]);
-          }
-        },
-        rows, other.rows);
+    Real* const block = block_of(coupling);
+    with_sizes(rows, other.rows, [&](auto height, auto width) {
+      divide_block(work, height, width, block, scaled);
+      for (uint32_t m = 0; m < width; ++m)
+        each_product(height, width, block, scaled[m], m, [&](uint32_t i, Real part) { other.response[i][m] -= part; });
+    });
     // The couplings before this one in the list already have L^-1 applied.
     for (uint32_t before = work.coupling; before != at; before = stage_.couplings[before].next[0]) {
       const JointCoupling& known = stage_.couplings[before];
@@ -284,15 +309,14 @@ void JointFactor::eliminate(JointWork& work) {
       Real* const target = block_of(*between);
       // The block of a coupling has the rows of the joint that is eliminated first.
       const bool turned = other.place < third.place;
-      with_sizes(
-          [&](auto height, auto known_width, auto width) {
-            for (uint32_t i = 0; i < known_width; ++i) {
-              for (uint32_t m = 0; m < width; ++m)
-                target[turned ? m * known_width + i : i * width + m] -=
-                    product(height, known_width, block_of(known), i, scaled[m]);
-            }
-          },
-          rows, third.rows, other.rows);
+      const Real* const known_block = block_of(known);
+      const uint32_t width = other.rows;
+      with_sizes(rows, third.rows, [&](auto height, auto known_width) {
+        for (uint32_t m = 0; m < width; ++m) {
+          each_product(height, known_width, known_block, scaled[m], 0,
+                       [&](uint32_t i, Real part) { target[turned ? m * known_width + i : i * width + m] -= part; });
+        }
+      });
     }
   }
 }
@@ -303,7 +327,7 @@ Scaled JointFactor::substitute() {
     JointWork& work = stage_.work[index];
     Real over[k_joint_rows_max];
     for (uint32_t k = 0; k < work.rows; ++k) {
-      work.side[k] -= product(k, 1, work.side, 0, work.response[k]);
+      work.side[k] -= product(k, uint32_t{1}, work.side, work.response[k]);
       bool clamped = false;
       over[k] = multiply(work.side[k], work.inverse[k], clamped);
       if (clamped) ++saturated;
@@ -312,11 +336,9 @@ Scaled JointFactor::substitute() {
     for (uint32_t at = work.coupling; at != k_no_link; at = stage_.couplings[at].next[0]) {
       const JointCoupling& coupling = stage_.couplings[at];
       JointWork& other = stage_.work[coupling.joint[1]];
-      with_sizes(
-          [&](auto height, auto width) {
-            for (uint32_t i = 0; i < width; ++i) other.side[i] -= product(height, width, block_of(coupling), i, over);
-          },
-          work.rows, other.rows);
+      with_sizes(work.rows, other.rows, [&](auto height, auto width) {
+        each_product(height, width, block_of(coupling), over, 0, [&](uint32_t i, Real part) { other.side[i] -= part; });
+      });
     }
   }
   return energy.value();
@@ -331,11 +353,9 @@ void JointFactor::solve() {
       const JointCoupling& coupling = stage_.couplings[at];
       const JointWork& other = stage_.work[coupling.joint[1]];
       const Real* block = block_of(coupling);
-      with_sizes(
-          [&](auto height, auto width) {
-            for (uint32_t k = 0; k < height; ++k) rest[k] -= product(width, 1, block + k * width, 0, other.impulse);
-          },
-          work.rows, other.rows);
+      with_sizes(work.rows, other.rows, [&](auto height, auto width) {
+        for (uint32_t k = 0; k < height; ++k) rest[k] -= product(width, uint32_t{1}, block + k * width, other.impulse);
+      });
     }
     for (uint32_t k = 0; k < work.rows; ++k) {
       bool clamped = false;

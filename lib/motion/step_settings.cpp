@@ -56,6 +56,7 @@ StepSettings step_settings(const WorldState& world) {
 #endif
   const Scaled rate = divide(scaled_from(world.tick_time), scaled_from(k_two_pi * world.contact_frequency));
   settings.substeps_per_rate = multiply(rate, rate);
+  settings.resting_penetration = scaled_from(world.resting_penetration);
   set_substeps(world.substeps == 0 ? 1 : world.substeps, settings);
   settings.relaxation = fine(unit_from_real(world.relaxation, 0));
   settings.gravity = world.gravity;

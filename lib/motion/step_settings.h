@@ -23,6 +23,7 @@ struct StepSettings {
   uint32_t substeps_max;
   /// (substeps / w)^2, s^2, with w the angular frequency, rad/s, of contacts between dynamic bodies.
   Scaled substeps_per_rate;
+  Scaled resting_penetration;  ///< depth to which a contact at rest may sink, over the smaller extent
   uint32_t iterations;
   uint32_t convergence;
   bool post_stabilises;

@@ -229,6 +229,7 @@ inline void visit(Archive& archive, WorldDef& def) {
   visit_number(archive, "tick", def.tick);
   visit_word(archive, "substeps", def.substeps);
   visit_word(archive, "most substeps", def.substeps_max);
+  visit_number(archive, "resting_penetration", def.resting_penetration);
   visit_word(archive, "iterations", def.iterations);
   visit_word(archive, "convergence", def.convergence);
   visit_choice(archive, "stabilisation", def.stabilisation, Stabilisation::soft, Stabilisation::post);

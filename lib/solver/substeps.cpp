@@ -13,8 +13,8 @@ namespace {
 /// The numbers of substeps that an island can have. If the limit of the island lies between two of them, the limit is
 /// possible too.
 constexpr uint32_t k_notches[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
-/// A lower number of substeps is enough if the need is at most this fraction of its square.
-constexpr Scaled k_in_hand = 0.6;
+/// A lower number of substeps is ample if it is enough for this multiple of the need.
+constexpr Scaled k_in_hand = 1.0 / 0.6;
 /// The least number of bodies of a run that can buckle: a shorter run sinks before it buckles.
 constexpr uint32_t k_run_min = 3;
 constexpr uint32_t k_contact_substeps_min = 2;  ///< for islands with contacts
@@ -35,7 +35,7 @@ Scaled needed(const StepSettings& settings, const ContactWork& contact, const Bo
   const Scaled extent = scaled_from(min(shape_extent(a), shape_extent(b)));
   const Scaled load = scaled_from(contact.state.load);
   const Scaled rate = multiply(divide(load, multiply(contact_frequency, extent)), settings.substeps_per_rate);
-  const Scaled sag = scaled_by_power(rate, -k_sag_power);
+  const Scaled sag = divide(rate, settings.resting_penetration);
   if (run < k_run_min) return sag;
   const Scaled buckling = multiply(rate, square_of(run));
   return less(sag, buckling) ? buckling : sag;
@@ -43,7 +43,7 @@ Scaled needed(const StepSettings& settings, const ContactWork& contact, const Bo
 
 /// The smallest entry of k_notches from `least` on and below `most` whose square is at least `need`; `most` if there is
 /// none.
-uint32_t notch_for(Scaled need, uint32_t least, uint32_t most) {
+DETENT_SHARED uint32_t notch_for(Scaled need, uint32_t least, uint32_t most) {
   for (const uint32_t notch : k_notches) {
     if (notch < least) continue;
     if (notch >= most) break;
@@ -159,10 +159,12 @@ void choose_substeps(const StepSettings& settings, Span<const BodyProperties> pr
       before = calm = 0;
     } else if (now == 0) {
       const uint32_t most[2] = {most_for(settings, island, k_face_limit), most_for(settings, island, k_rolling_limit)};
-      now = for_joints;
+      uint32_t ample = now = for_joints;
       for (int i = 0; i < 2; ++i) {
         const uint32_t held = notch_for(need[i], least, most[i]);
+        const uint32_t held_in_hand = notch_for(multiply(need[i], k_in_hand), least, most[i]);
         now = now < held ? held : now;
+        ample = ample < held_in_hand ? held_in_hand : ample;
       }
       const uint32_t most_of_all = most[0] < for_joints ? for_joints : most[0];
       before = before < most_of_all ? before : most_of_all;
@@ -170,11 +172,9 @@ void choose_substeps(const StepSettings& settings, Span<const BodyProperties> pr
       if (now >= before) {
         calm = 0;
       } else {
-        bool wanted = lower < for_joints;
-        for (int i = 0; i < 2; ++i)
-          wanted = wanted || (lower < most[i] && less(multiply(square_of(lower), k_in_hand), need[i]));
-        calm = wanted ? 0 : calm + 1;
-        if (calm < (jointed ? k_joint_calm_ticks : k_calm_ticks)) {
+        calm = lower >= ample ? calm + 1 : 0;
+        const bool few = jointed || 2 * ample <= before;
+        if (calm < (few ? k_few_calm_ticks : k_calm_ticks)) {
           now = before;
         } else {
           calm = 0;

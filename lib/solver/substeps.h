@@ -8,14 +8,12 @@
 ///
 /// A soft contact of angular frequency w, rad/s, under a force W sinks by W / (k w^2), where k is the sum of the
 /// effective masses of its points. A column of n such contacts buckles unless k w^2 > W n^2 / (width of the column). w
-/// is a fixed fraction of the substep rate. Therefore both the permitted sag and the column require a number of
-/// substeps.
+/// is a fixed fraction of the substep rate. Therefore both the permitted sag (WorldDef::resting_penetration) and the
+/// column require a number of substeps.
 /// Source: the sag of a spring; Euler, "De curvis elasticis", 1744, for a column with elastic joints.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Permitted sag of a contact, as a power of two of the smaller body's extent: 8 mm of 1 m.
-inline constexpr int k_sag_power = -7;
 /// Limits for large islands, so that a single contact cannot make a whole pile expensive.
 struct SubstepLimit {
   uint32_t contact_substeps;  ///< largest product of contacts and substeps; a joint counts as k_joint_contacts contacts
@@ -32,13 +30,15 @@ inline constexpr uint32_t k_edge_points = 2;
 inline constexpr uint32_t k_joint_contacts = 8;
 /// The number of ticks in a row in which fewer substeps must be enough, before the number of substeps is reduced.
 inline constexpr uint32_t k_calm_ticks = 60;
-/// The same for islands with joints, which need more substeps only while their bodies rotate.
-inline constexpr uint32_t k_joint_calm_ticks = 8;
+/// The same where half the number of substeps would be enough: so high a number comes from impacts, not from loads. The
+/// same also for islands with joints, which need more substeps only while their bodies rotate.
+inline constexpr uint32_t k_few_calm_ticks = 8;
 
 /// Sets the number of substeps of each island, in `islands` and in the activities of its bodies. The number follows
 /// from the loads of the contacts and from Island::joint_need. It increases at once. Without joints, it decreases to
-/// the next lower entry of k_notches after k_calm_ticks. With joints, it decreases to the number that is needed, after
-/// k_joint_calm_ticks. Impulses from a tick with another number of substeps are scaled.
+/// the next lower entry of k_notches after k_calm_ticks, or after k_few_calm_ticks if half the number is enough. With
+/// joints, it decreases to the number that is needed, after k_few_calm_ticks. Impulses from a tick with another number
+/// of substeps are scaled.
 void choose_substeps(const StepSettings& settings, Span<const BodyProperties> properties, Span<const BodyWork> work,
                      Span<const uint32_t> bodies, Span<const ContactOrder> order, Span<Island> islands,
                      Span<ContactWork> contacts, Span<BodyActivity> activities);

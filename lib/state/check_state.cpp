@@ -325,9 +325,13 @@ Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, c
       world.continuous > 1 || world.idle > 1 ||
       !are_settings(world.gravity, world.tick_time, world.substeps, world.substeps_max, world.iterations,
                     world.convergence, world.relaxation, world.contact_frequency, world.damping_ratio,
-                    world.restitution_threshold, world.contact_margin, world.contact_recycle_distance)) {
+                    world.restitution_threshold, world.contact_margin, world.contact_recycle_distance,
+                    world.resting_penetration)) {
     return Status::corrupt;
   }
+#if defined(DETENT_F32)
+  if (world.zero != 0) return Status::corrupt;
+#endif
   if (!contains(features_of(state), features_of(world.continuous != 0, world.sleeping != 0))) return Status::corrupt;
   if (world.joint_count != 0 && !contains(features_of(state), Features::joints)) return Status::corrupt;
   if (world.sensor_count != 0 && !contains(features_of(state), Features::sensors)) return Status::corrupt;

@@ -130,6 +130,10 @@ inline constexpr Field k_world_fields[] = {
     DETENT_FIELD(WorldState, restitution_threshold),
     DETENT_FIELD(WorldState, contact_margin),
     DETENT_FIELD(WorldState, contact_recycle_distance),
+    DETENT_FIELD(WorldState, resting_penetration),
+#if defined(DETENT_F32)
+    DETENT_FIELD(WorldState, zero),
+#endif
 };
 inline constexpr Field k_pose_fields[] = {
     DETENT_FIELD_IN(BodyPose, position, "m"),

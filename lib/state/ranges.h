@@ -89,13 +89,14 @@ inline constexpr Real k_gravity_scale_max = 1024.0;
 DETENT_SHARED inline bool are_settings(const Vec3<Real>& gravity, Real tick, uint32_t substeps, uint32_t substeps_max,
                                        uint32_t iterations, uint32_t convergence, Real relaxation,
                                        Real contact_frequency, Real damping_ratio, Real restitution_threshold,
-                                       Real contact_margin, Real contact_recycle_distance) {
+                                       Real contact_margin, Real contact_recycle_distance, Real resting_penetration) {
   return within(gravity, k_gravity_max) && within(tick, Real(0x1p-14), Real(0.25)) && substeps <= 64 &&
          substeps_max >= 1 && substeps_max <= 64 && iterations >= 1 && iterations <= 64 && convergence <= 30 &&
          within(relaxation, Real(0.25), Real(1.75)) && within(contact_frequency, Real(0x1p-6), Real(0.25)) &&
          within(damping_ratio, Real(0.0), Real(64.0)) && within(restitution_threshold, Real(0.0), Real(64.0)) &&
          within(contact_margin, Real(0x1p-10), Real(0x1p-4)) &&
-         within(contact_recycle_distance, Real(0.0), Real(0x1p-6));
+         within(contact_recycle_distance, Real(0.0), Real(0x1p-6)) &&
+         within(resting_penetration, Real(0x1p-12), Real(0x1p-3));
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 inline constexpr uint32_t k_snapshot_magic = 0x544e5444;  // "DTNT" in canonical bytes
-inline constexpr uint32_t k_snapshot_format = 5;
+inline constexpr uint32_t k_snapshot_format = 6;
 
 /// BlockHeader::left_out of a world with this feature table.
 inline uint32_t left_out(const FeatureTable& features) {

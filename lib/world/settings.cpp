@@ -12,7 +12,7 @@ inline namespace DETENT_NAMESPACE {
 Status check_settings(const WorldDef& def, const FeatureTable& features) {
   if (!are_settings(def.gravity, def.tick, def.substeps, def.substeps_max, def.iterations, def.convergence,
                     def.relaxation, def.contact_frequency, def.damping_ratio, def.restitution_threshold,
-                    def.contact_margin, def.contact_recycle_distance)) {
+                    def.contact_margin, def.contact_recycle_distance, def.resting_penetration)) {
     return Status::out_of_range;
   }
   if (!is_reduction(def.reduction) || !is_stabilisation(def.stabilisation)) return Status::bad_argument;
@@ -23,6 +23,7 @@ Status check_settings(const WorldDef& def, const FeatureTable& features) {
 void store_settings(const WorldDef& def, WorldState& world, bool has_manifolds) {
   world.substeps = def.substeps;
   world.substeps_max = def.substeps_max;
+  world.resting_penetration = def.resting_penetration;
   world.sleeping = def.sleeping ? 1 : 0;
   world.continuous = def.continuous ? 1 : 0;
   world.iterations = def.iterations;
@@ -56,6 +57,7 @@ WorldDef get_settings(const World& world) {
   def.tick = from.tick_time;
   def.substeps = from.substeps;
   def.substeps_max = from.substeps_max;
+  def.resting_penetration = from.resting_penetration;
   def.iterations = from.iterations;
   def.convergence = from.convergence;
   def.stabilisation = static_cast<Stabilisation>(from.stabilisation);

@@ -66,10 +66,10 @@ def draw_scenes(rows, path):
 
 
 def knob_of(row):
-    return "default" if not row["substeps"] and not row["iterations"] else "substeps" if row["substeps"] else "iterations"
+    return next((knob for knob in ("substeps", "iterations", "penetration") if row[knob]), "default")
 
 
-KNOBS = {"default": ("*", "none"), "substeps": ("o", "-"), "iterations": ("s", "--")}
+KNOBS = {"default": ("*", "none"), "substeps": ("o", "-"), "iterations": ("s", "--"), "penetration": ("d", ":")}
 
 
 def draw_study(scene, rows, path):
@@ -85,7 +85,7 @@ def draw_study(scene, rows, path):
         for row in rows:
             lines.setdefault((name_of(row), knob_of(row)), []).append(row)
         for (name, knob), points in lines.items():
-            points.sort(key=lambda row: (row["substeps"], row["iterations"]))
+            points.sort(key=lambda row: row.get(knob, 0))
             x = [max(abs(row["measures"][measure]), FLOOR) for row in points]
             y = [row["us_median"] for row in points]
             marker, style = KNOBS[knob]
@@ -96,7 +96,7 @@ def draw_study(scene, rows, path):
             labels.setdefault(f"{name}, {knob}", line)
             if name in ("fx64", "bullet double", "ode double") and not default:
                 for row, at in zip(points, zip(x, y)):
-                    axes.annotate(str(row["substeps"] or row["iterations"]), at, (3, 3), textcoords="offset points",
+                    axes.annotate(f"1/{row[knob]}" if knob == "penetration" else str(row[knob]), at, (3, 3), textcoords="offset points",
                                   fontsize=6, color=COLOURS[name])
         if measure == "error" and rows[0]["measures"].get("reference", 0) > FLOOR:
             axes.axvline(rows[0]["measures"]["reference"], color="black", linewidth=0.7, linestyle=":")
@@ -106,7 +106,7 @@ def draw_study(scene, rows, path):
         axes.grid(True, which="both", linewidth=0.2)
     for axes in grid[:, 0]:
         axes.set_ylabel("us a step, median")
-    figure.suptitle(f"{scene}: time against error. Numbers: substeps or iterations. Dotted: how well the exact motion is known", fontsize=8)
+    figure.suptitle(f"{scene}: time against error. Numbers: substeps, iterations or resting penetration. Dotted: how well the exact motion is known", fontsize=8)
     figure.legend(labels.values(), labels.keys(), loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=7, frameon=False)
     save(figure, path)
 

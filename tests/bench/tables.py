@@ -252,7 +252,7 @@ def worlds_verify(rows):
                   for row in rows])
 
 
-WEB = ["fx64", "fx64-O2", "f32", "f32-O2", "rapier", "rapier-simd", "jolt"]
+WEB = ["fx64", "f32", "fx64.small", "f32.small", "rapier", "rapier-simd", "jolt"]
 
 
 def by_scene(rows):
@@ -269,13 +269,13 @@ def web(rows):
 
 
 def web_ratios(rows):
-    return table(["scene"] + [f"`{own}` / {peer}" for peer in ("Rapier", "Rapier SIMD", "Jolt") for own in ("fx64", "f32", "f32-O2")],
-                 [[scene] + [ratio(of[own], of[peer]) for peer in ("rapier", "rapier-simd", "jolt") for own in ("fx64", "f32", "f32-O2")]
+    return table(["scene"] + [f"`{own}` / {peer}" for peer in ("Rapier", "Rapier SIMD", "Jolt") for own in ("fx64", "f32")],
+                 [[scene] + [ratio(of[own], of[peer]) for peer in ("rapier", "rapier-simd", "jolt") for own in ("fx64", "f32")]
                   for scene, of in by_scene(rows).items()])
 
 
 def web_errors(rows):
-    names = ["fx64", "f32", "rapier", "rapier-simd", "jolt"]  # at -O2 the results are the same
+    names = ["fx64", "f32", "rapier", "rapier-simd", "jolt"]  # the small modules have the same results
     lines = []
     for scene, of in by_scene(rows).items():
         for error in of["fx64"]["errors"]:

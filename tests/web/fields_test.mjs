@@ -22,6 +22,7 @@ const worldDef = {
   tick: 1 / 128,
   substeps: 5,
   substepsMax: 17,
+  restingPenetration: 1 / 64,
   iterations: 3,
   convergence: 9,
   stabilisation: 'post',

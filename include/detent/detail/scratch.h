@@ -148,8 +148,9 @@ struct alignas(8) ContactWork {
   Real approach[k_manifold_points_max];
 };
 
-/// Whether builds for this machine may solve four contacts at once, in registers of 256 bits (lib/solver/lanes.h).
-#if (defined(__x86_64__) && !defined(DETENT_F64)) || (defined(__aarch64__) && defined(DETENT_F32))
+/// Whether builds for this machine may solve four contacts at once (lib/solver/lanes.h).
+#if (defined(__x86_64__) && !defined(DETENT_F64)) || \
+    ((defined(__aarch64__) || defined(__wasm_simd128__)) && defined(DETENT_F32))
 inline constexpr bool k_may_have_lanes = true;
 #else
 inline constexpr bool k_may_have_lanes = false;

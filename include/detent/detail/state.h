@@ -51,6 +51,10 @@ struct alignas(8) WorldState {
   Real restitution_threshold;
   Real contact_margin;            ///< contact margin, over the smaller extent
   Real contact_recycle_distance;  ///< largest motion at which contact points are recycled, over the smaller extent
+  Real resting_penetration;       ///< depth of contacts at rest for which substeps are chosen, over the smaller extent
+#if defined(DETENT_F32)
+  uint32_t zero;
+#endif
 };
 
 struct BodyPose {

@@ -53,6 +53,8 @@ void visit(F& fields, WorldDef& world) {
   fields.real({"tick", "the time of one step, s", between(0x1p-14, 0.25)}, world.tick);
   fields.integer({"substeps", "number per tick; 0: chosen for each island", between(0, 64)}, world.substeps);
   fields.integer({"substeps_max", "greatest number that is chosen", between(1, 64)}, world.substeps_max);
+  fields.real({"resting_penetration", "depth of contacts at rest, over the smaller extent", between(0x1p-12, 0x1p-3)},
+              world.resting_penetration);
   fields.integer({"iterations", "sweeps over the contacts per substep", between(1, 64)}, world.iterations);
   fields.integer({"convergence", "sweeps end early below 2^-convergence", between(0, 30)}, world.convergence);
   fields.choice({"stabilisation", "how overlap is removed"}, world.stabilisation, k_stabilisations);

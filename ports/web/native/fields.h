@@ -107,6 +107,7 @@ void visit(F& f, WorldDef& def) {
   f.real(def.tick);
   f.word(def.substeps);
   f.word(def.substeps_max);
+  f.real(def.resting_penetration);
   f.word(def.iterations);
   f.word(def.convergence);
   f.choice(def.stabilisation);

@@ -80,6 +80,7 @@ export const worldDef = record<T.WorldDef, T.Full<T.WorldDef>>({
   tick: number(1 / 60),
   substeps: number(),
   substepsMax: number(32),
+  restingPenetration: number(1 / 144),
   iterations: number(1),
   convergence: number(12),
   stabilisation: choice({ soft: 1, post: 2 }, 'soft'),

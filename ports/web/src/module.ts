@@ -15,8 +15,11 @@ export class DetentError extends Error {
 
 type Native = Record<string, (...args: (number | bigint)[]) => number & bigint>;
 
-/** Where the package's own modules are; `source` may also be their bytes, a compiled module, or another URL. */
-export type ModuleSource = 'fx64' | 'f32' | URL | Response | BufferSource | WebAssembly.Module;
+/**
+ * A module of the package, or its URL, response, bytes or compiled module. The small modules have 60 % of the bytes and
+ * take two to four times as long.
+ */
+export type ModuleSource = 'fx64' | 'f32' | 'fx64.small' | 'f32.small' | URL | Response | BufferSource | WebAssembly.Module;
 
 async function compile(source: ModuleSource): Promise<WebAssembly.Module> {
   if (source instanceof WebAssembly.Module) return source;

@@ -82,6 +82,7 @@ export interface WorldDef {
   tick?: number;
   substeps?: number;
   substepsMax?: number;
+  restingPenetration?: number;
   iterations?: number;
   convergence?: number;
   stabilisation?: 'soft' | 'post';

@@ -12,8 +12,8 @@ const usage = `usage: ./bench web [--scenes LIST] [--engines LIST] [--module NAM
                    [--json FILE]
 
   --scenes       of ${scenes.map(({ name }) => name).join(', ')}; all of them by default
-  --engines      of fx64, f32 (the package), fx64-O2, f32-O2 (its modules at -O2), rapier, rapier-deterministic,
-                 rapier-simd, jolt; all of them by default
+  --engines      of fx64, f32, fx64.small, f32.small (the package), rapier, rapier-deterministic, rapier-simd, jolt;
+                 all of them by default
   --module       a further engine: the package with another module
   --repetitions  3: of each step the least time counts
   --seed         1: of the order in which engines take turns
@@ -42,8 +42,12 @@ const refuse = (text) => {
 const count = (name) => (/^[1-9]\d{0,3}$/.test(options[name]) ? Number(options[name]) : refuse(`--${name}: 1 to 9999`));
 const { built, tool } = options;
 const makers = {
-  fx64: (name) => detent({ name, source: 'fx64', built, tool }),
-  f32: (name) => detent({ name, source: 'f32', built, tool }),
+  ...Object.fromEntries(
+    ['fx64', 'f32', 'fx64.small', 'f32.small'].map((source) => [
+      source,
+      (name) => detent({ name, source, built, tool }),
+    ]),
+  ),
   rapier: (name) => rapier({ name, source: '@dimforge/rapier3d-compat' }),
   'rapier-deterministic': (name) => rapier({ name, source: '@dimforge/rapier3d-deterministic-compat' }),
   'rapier-simd': (name) => rapier({ name, source: '@dimforge/rapier3d-simd-compat' }),

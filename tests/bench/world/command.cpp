@@ -67,14 +67,18 @@ bool scene_chosen(const std::vector<std::string>& names, const std::string& name
 }
 
 /// As they are, and for a study by the knobs that each engine has.
-std::vector<Contestant> contestants_of(const WorldEngineList& engines, bool study) {
+std::vector<Contestant> contestants_of(const WorldEngineList& engines, const WorldOptions& options) {
   std::vector<Contestant> result;
   for (const WorldEngine& engine : engines) {
+    const bool own = std::string(engine.engine) == "detent";
     result.push_back({engine, {}});
-    if (!study) continue;
-    for (const uint32_t substeps : {1u, 2u, 4u, 8u, 16u, 32u}) result.push_back({engine, {substeps, 0}});
-    if (std::string(engine.engine) == "detent") continue;
-    for (const uint32_t iterations : {2u, 5u, 10u, 20u, 40u, 80u}) result.push_back({engine, {0, iterations}});
+    if (own && (options.study || options.accuracy)) {
+      for (const uint32_t penetration : {8u, 32u, 512u, 2048u}) result.push_back({engine, {0, 0, penetration}});
+    }
+    if (!options.study) continue;
+    for (const uint32_t substeps : {1u, 2u, 4u, 8u, 16u, 32u}) result.push_back({engine, {substeps, 0, 0}});
+    if (own) continue;
+    for (const uint32_t iterations : {2u, 5u, 10u, 20u, 40u, 80u}) result.push_back({engine, {0, iterations, 0}});
   }
   return result;
 }
@@ -142,7 +146,7 @@ std::vector<WorldRow> run_task(const Task& task, detent_test::Ground ground, con
     plan.reference = reference.get();
   }
   Line line("scene " + name);
-  WorldFindings findings = measure_world(task.scene, contestants_of(engines, options.study), plan,
+  WorldFindings findings = measure_world(task.scene, contestants_of(engines, options), plan,
                                          [&line](uint64_t done, uint64_t total) { line.show(done, total); });
   tell_of(findings, name);
   for (WorldRow& row : findings.rows) {
@@ -183,7 +187,10 @@ CLI::App* add_world_command(CLI::App& app, WorldOptions& options) {
   add_ground_option(*command, options.ground);
   CLI::Option* const study = command->add_flag(
       "--study", options.study,
-      "Time against error over 1 to 32 substeps, of peers 1 to 32 steps a tick and 2 to 80 iterations; --ground box");
+      "Time against error over 1 to 32 substeps, of peers 1 to 32 steps a tick and 2 to 80 iterations, and with "
+      "--accuracy; --ground box");
+  command->add_flag("--accuracy", options.accuracy,
+                    "Detent also with a resting_penetration of 1/8, 1/32, 1/512 and 1/2048 (default: 1/128)");
   CLI::Option* const growth = command->add_flag(
       "--growth", options.growth, "The pit of S4 with more and more bodies, as deep but wider; --ground box");
   growth->excludes(study);

@@ -8,7 +8,7 @@ struct WorldOptions {
   std::vector<std::string> scenes, engines, configs;
   std::string ground;  ///< empty: box for a study and for growth, else both
   uint32_t repetitions = 3, steps = 0;
-  bool study = false, growth = false;
+  bool study = false, growth = false, accuracy = false;
   std::vector<uint32_t> bodies = {250, 500, 1000, 2000, 4000, 8000, 16000};
   std::string json, plot;
 };

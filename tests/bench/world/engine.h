@@ -22,8 +22,9 @@ using detent_stress::StageJoint;
 struct Effort {
   uint32_t substeps = 0;  ///< a peer has none: it makes so many steps of a part of the tick
   uint32_t iterations = 0;
+  uint32_t penetration = 0;  ///< this library: WorldDef::resting_penetration is 1 / penetration
 
-  bool is_default() const { return substeps == 0 && iterations == 0; }
+  bool is_default() const { return substeps == 0 && iterations == 0 && penetration == 0; }
 };
 
 /// A stage in an engine's own terms.

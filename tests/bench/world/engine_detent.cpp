@@ -18,6 +18,7 @@ detent_stress::Settings settings_of(const Effort& effort) {
   detent_stress::Settings settings;
   if (effort.substeps != 0) settings.substeps = effort.substeps;
   if (effort.iterations != 0) settings.iterations = effort.iterations;
+  if (effort.penetration != 0) settings.resting_penetration = 1.0 / effort.penetration;
   return settings;
 }
 

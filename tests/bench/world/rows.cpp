@@ -29,6 +29,7 @@ std::string effort_text(const Effort& effort) {
   std::string result;
   if (effort.substeps != 0) result += text("%u substeps", effort.substeps);
   if (effort.iterations != 0) result += (result.empty() ? "" : ", ") + text("%u iterations", effort.iterations);
+  if (effort.penetration != 0) result += text("penetration 1/%u", effort.penetration);
   return result.empty() ? "default" : result;
 }
 
@@ -125,6 +126,7 @@ std::string world_json_of(const std::vector<WorldRow>& rows, bool study) {
     if (study) {
       json["substeps"] = row.effort.substeps;
       json["iterations"] = row.effort.iterations;
+      json["penetration"] = row.effort.penetration;
     }
     json["bodies"] = row.bodies;
     add_times(json, row.times, row.stages);

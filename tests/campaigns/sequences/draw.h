@@ -157,6 +157,7 @@ class Draw {
     now.gravity = vector(10, wrong);
     now.substeps = random_.chance(0.5) ? 0 : 1 + random_.below(6);
     now.substeps_max = 1 + random_.below(16);
+    now.resting_penetration = number(0x1p-8, 0x1p-4, wrong);
     now.iterations = 1 + random_.below(3);
     now.convergence = random_.below(31);
     now.relaxation = number(0.5, 1.5, wrong);

@@ -210,7 +210,8 @@ void Game::change_world() {
       if (!judge("set_settings", recorder_->set_settings(def), true, wrong)) break;
       const WorldDef now = get_settings(world());
       EXPECT_TRUE(now.tick == def.tick && now.gravity == def.gravity);
-      EXPECT_TRUE(now.substeps == def.substeps && now.substeps_max == def.substeps_max);
+      EXPECT_TRUE(now.substeps == def.substeps && now.substeps_max == def.substeps_max &&
+                  now.resting_penetration == def.resting_penetration);
       EXPECT_TRUE(now.iterations == def.iterations && now.convergence == def.convergence);
       EXPECT_TRUE(now.relaxation == def.relaxation && now.damping_ratio == def.damping_ratio);
       EXPECT_TRUE(now.contact_recycle_distance == (capacity().manifolds ? def.contact_recycle_distance : Real(0.0)) &&

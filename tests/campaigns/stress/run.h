@@ -13,7 +13,7 @@ namespace detent_stress {
 /// Settings that differ from the library's defaults.
 struct Settings {
   std::optional<uint32_t> substeps, iterations;
-  std::optional<double> contact_recycle_distance;
+  std::optional<double> contact_recycle_distance, resting_penetration;
   std::optional<uint32_t> reduction;  ///< a ManifoldReduction
   bool continuous = true;
 };

@@ -85,10 +85,10 @@ class DetentRun : public detent_stress::Run {
     if (const Status status = real_from_host(stage.tick, def.tick); status != Status::ok) return status;
     if (settings.substeps) def.substeps = *settings.substeps;
     if (settings.iterations) def.iterations = *settings.iterations;
-    if (settings.contact_recycle_distance) {
-      if (const Status status = real_from_host(*settings.contact_recycle_distance, def.contact_recycle_distance);
-          status != Status::ok)
-        return status;
+    for (const auto& [given, to] : {std::pair(settings.resting_penetration, &def.resting_penetration),
+                                    std::pair(settings.contact_recycle_distance, &def.contact_recycle_distance)}) {
+      if (!given) continue;
+      if (const Status status = real_from_host(*given, *to); status != Status::ok) return status;
     }
     if (settings.reduction) def.reduction = static_cast<ManifoldReduction>(*settings.reduction);
     def.sleeping = stage.sleeping;

@@ -142,13 +142,13 @@ struct Ending {
   uint64_t digest;
 };
 #if defined(DETENT_FX64)
-constexpr Ending k_endings[] = {{10000, 0x0a3db0a9da7ee0a7}, {1000000, 0x43668189d3e27c10}};
+constexpr Ending k_endings[] = {{10000, 0x849a4a8ad54f4ccb}, {1000000, 0x4e2a1c69122d9cb4}};
 #elif defined(DETENT_FX32)
-constexpr Ending k_endings[] = {{10000, 0xae8eb0d48d258fa4}, {1000000, 0xa4e4c8eb2af954ff}};
+constexpr Ending k_endings[] = {{10000, 0x653521b95d58c7e3}, {1000000, 0x53cba34c5252fa8a}};
 #elif defined(DETENT_F32)
-constexpr Ending k_endings[] = {{10000, 0x29799c879e728b23}};
+constexpr Ending k_endings[] = {{10000, 0xf91315e711f34042}};
 #else
-constexpr Ending k_endings[] = {{10000, 0x16ccd2bf122703d3}};
+constexpr Ending k_endings[] = {{10000, 0x5bbe00ba93e91ab6}};
 #endif
 
 /// A million ticks if DETENT_FULL is set.

@@ -323,7 +323,8 @@ struct Pile {
   }
   /// The square of the number of substeps that a contact with this load needs, without regard to buckling.
   double needed(double load) const {
-    return 128 * load * scaled_to_host(settings.substeps_per_rate) / real_to_host(shape_extent(properties[0]));
+    const double sag = load * scaled_to_host(settings.substeps_per_rate) / real_to_host(shape_extent(properties[0]));
+    return sag / scaled_to_host(settings.resting_penetration);
   }
   double load_for(double substeps) const { return substeps * substeps / needed(1); }
   uint32_t choose(double load) {
@@ -349,12 +350,12 @@ DETENT_TEST(substeps, are_the_fewest_of_a_few_numbers_that_hold_the_load_and_two
   }
 }
 
-DETENT_TEST(substeps, of_a_row_of_twelve_or_more_prevent_buckling) {
-  for (const uint32_t run : {1u, 2u, 3u, 4u, 11u, 12u, 24u}) {
+DETENT_TEST(substeps, of_a_row_of_more_than_twelve_prevent_buckling) {
+  for (const uint32_t run : {1u, 2u, 3u, 4u, 11u, 13u, 24u}) {
     Pile pile(1, run);
     pile.settings.substeps_max = 64;
-    // Buckling decides if the squared length of the row exceeds 128, the inverse of the permitted sag.
-    const double buckles = run < 12 ? 1 : run / sqrt(128.0);
+    // Buckling decides if the squared length of the row exceeds 144, the inverse of the permitted sag.
+    const double buckles = run < 12 ? 1 : run / 12.0;
     EXPECT_EQ(pile.choose(pile.load_for(7.9 / buckles)), 8u) << run;
     EXPECT_EQ(Pile(1, run).choose(pile.load_for(8.1 / buckles)), 12u) << run;
   }
@@ -393,9 +394,49 @@ DETENT_TEST(substeps, become_fewer_by_one_notch_after_a_second_in_which_fewer_wo
   EXPECT_EQ(pile.choose(light), 24u);
   EXPECT_EQ(pile.activities[1].substeps, 24u);
   EXPECT_EQ(pile.activities[1].calm_ticks, 0u);
-  for (int tick = 0; tick < 59; ++tick) ASSERT_EQ(pile.choose(0), 24u) << tick;
-  EXPECT_EQ(pile.choose(0), 16u);
+  const double lighter = pile.load_for(15 * sqrt(0.6));
+  for (int tick = 0; tick < 59; ++tick) ASSERT_EQ(pile.choose(lighter), 24u) << tick;
+  EXPECT_EQ(pile.choose(lighter), 16u);
   EXPECT_EQ(pile.choose(pile.load_for(31)), 32u) << "more are taken at once";
+}
+
+DETENT_TEST(substeps, of_which_half_would_do_become_fewer_by_one_notch_after_eight_ticks) {
+  Pile pile(1, 1);
+  pile.settings.substeps_max = 64;
+  ASSERT_EQ(pile.choose(pile.load_for(31)), 32u);
+  // 16 would be enough.
+  const double light = pile.load_for(15.9 * sqrt(0.6)), heavier = pile.load_for(16.1 * sqrt(0.6));
+  for (int tick = 0; tick < 59; ++tick) ASSERT_EQ(pile.choose(heavier), 32u) << "more than half is needed: " << tick;
+  ASSERT_EQ(pile.choose(pile.load_for(31)), 32u) << "the count of calm ticks starts again";
+  for (int tick = 0; tick < 7; ++tick) ASSERT_EQ(pile.choose(light), 32u) << tick;
+  EXPECT_EQ(pile.choose(light), 24u);
+  for (int tick = 0; tick < 59; ++tick) ASSERT_EQ(pile.choose(light), 24u) << "more than half is needed: " << tick;
+  EXPECT_EQ(pile.choose(light), 16u);
+  for (const uint32_t fewer : {12u, 8u, 6u, 4u, 3u}) {
+    for (int tick = 0; tick < 7; ++tick) ASSERT_GT(pile.choose(0), fewer) << tick;
+    EXPECT_EQ(pile.choose(0), fewer);
+  }
+  for (int tick = 0; tick < 59; ++tick) ASSERT_EQ(pile.choose(0), 3u) << "two are the least: " << tick;
+  EXPECT_EQ(pile.choose(0), 2u);
+}
+
+/// The permitted depth decides, except in a row that would buckle.
+DETENT_TEST(substeps, follow_the_penetration_that_is_permitted_at_rest) {
+  for (const double permitted : {1.0 / 2048, 1.0 / 512, 1.0 / 150, 1.0 / 30, 1.0 / 8}) {
+    Pile pile(1, 1), row(1, 24);
+    pile.settings.substeps_max = row.settings.substeps_max = 64;
+    const double load = pile.load_for(10);
+    pile.settings.resting_penetration = row.settings.resting_penetration = scaled(permitted);
+    const double needed = 10 * sqrt(1 / (144 * permitted)), buckles = 10 * 24 / 12.0;
+    const auto least = [](double need) {
+      for (const uint32_t notch : {2u, 3u, 4u, 6u, 8u, 12u, 16u, 24u, 32u, 48u, 64u}) {
+        if (notch >= need) return notch;
+      }
+      return 64u;
+    };
+    EXPECT_EQ(pile.choose(load), least(needed)) << permitted;
+    EXPECT_EQ(row.choose(load), least(fmax(needed, buckles))) << permitted;
+  }
 }
 
 DETENT_TEST(substeps, scale_the_impulses_that_are_carried_over) {

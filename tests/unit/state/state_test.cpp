@@ -512,17 +512,17 @@ DETENT_TEST(state, the_layout_is_the_same_on_every_target) {
   EXPECT_EQ(world_bytes(k_capacity), layout_of(k_capacity, fits).bytes);
   EXPECT_EQ(world_bytes(k_capacity) > bytes_without_lanes, k_may_have_lanes);
 #if defined(DETENT_FX64)
-  EXPECT_EQ(snapshot_bytes(k_capacity), 7264u);
-  EXPECT_EQ(bytes_without_lanes, 29752u);
+  EXPECT_EQ(snapshot_bytes(k_capacity), 7272u);
+  EXPECT_EQ(bytes_without_lanes, 29760u);
 #elif defined(DETENT_FX32)
-  EXPECT_EQ(snapshot_bytes(k_capacity), 7224u);
-  EXPECT_EQ(bytes_without_lanes, 29232u);
+  EXPECT_EQ(snapshot_bytes(k_capacity), 7232u);
+  EXPECT_EQ(bytes_without_lanes, 29240u);
 #elif defined(DETENT_F32)
-  EXPECT_EQ(snapshot_bytes(k_capacity), 5464u);
-  EXPECT_EQ(bytes_without_lanes, 23272u);
+  EXPECT_EQ(snapshot_bytes(k_capacity), 5472u);
+  EXPECT_EQ(bytes_without_lanes, 23280u);
 #else
-  EXPECT_EQ(snapshot_bytes(k_capacity), 8744u);
-  EXPECT_EQ(bytes_without_lanes, 39392u);
+  EXPECT_EQ(snapshot_bytes(k_capacity), 8752u);
+  EXPECT_EQ(bytes_without_lanes, 39400u);
 #endif
 }
 

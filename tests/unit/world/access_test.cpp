@@ -468,6 +468,7 @@ DETENT_TEST(access, settings_read_back_create_the_same_world) {
   def.tick = real(0.01);
   def.substeps = 5;
   def.substeps_max = 20;
+  def.resting_penetration = real(1.0 / 32);
   def.iterations = 2;
   def.convergence = 9;
   def.stabilisation = Stabilisation::post;

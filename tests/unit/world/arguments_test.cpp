@@ -158,6 +158,8 @@ DETENT_TEST(arguments, a_world_needs_its_block_and_sound_settings) {
   EXPECT_EQ(make([](WorldDef& d) { d.capacity.bodies = 1000; }), Status::buffer_too_small);
   EXPECT_EQ(make([](WorldDef& d) { d.substeps_max = 0; }), Status::out_of_range);
   EXPECT_EQ(make([](WorldDef& d) { d.substeps_max = 65; }), Status::out_of_range);
+  EXPECT_EQ(make([](WorldDef& d) { d.resting_penetration = real(0); }), Status::out_of_range);
+  EXPECT_EQ(make([](WorldDef& d) { d.resting_penetration = real(0.25); }), Status::out_of_range);
   EXPECT_EQ(make([](WorldDef& d) { d.substeps = 65; }), Status::out_of_range);
   EXPECT_EQ(make([](WorldDef& d) { d.iterations = 0; }), Status::out_of_range);
   EXPECT_EQ(make([](WorldDef& d) { d.tick = real(0); }), Status::out_of_range);
