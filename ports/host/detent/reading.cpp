@@ -74,6 +74,11 @@ class Reading {
       outcome.digest = result.digest;
       if (result.finished) {
         finished = true;
+        if (!input_->ends_whole()) {
+          outcome.verdict = Verdict::bad;
+          outcome.status = status_text(Status::truncated);
+          outcome.problem = input_->problem;
+        }
         break;
       }
       tick = result.tick;

@@ -22,6 +22,9 @@ class Input {
   /// `got` is less than `count` only at the end. False on a read error, with the reason in `problem`.
   virtual bool read(uint8_t* bytes, uint32_t count, uint32_t& got) = 0;
   virtual bool seek(uint64_t offset) = 0;
+  /// After the last byte that is needed: whether the file is whole to its end, which compression marks with a checksum.
+  /// If not, the reason is in `problem`.
+  virtual bool ends_whole() { return true; }
 
   uint64_t file_bytes = 0;          ///< on the disk
   uint64_t bytes_max = 0;           ///< limit of bytes that can be read

@@ -40,11 +40,19 @@ class PackedInput final : public Input {
       const size_t before = out.pos, used = in_.pos;
       const size_t result = ZSTD_decompressStream(decoder_.get(), &out, &in_);
       if (ZSTD_isError(result) != 0) return fail(std::string("zstd: ") + ZSTD_getErrorName(result));
-      ended_ = out.pos == before && in_.pos == used && in_.pos == in_.size && feof(file_.get()) != 0;
+      const bool moved = out.pos != before || in_.pos != used;
+      if (moved) whole_ = result == 0;
+      ended_ = !moved && in_.pos == in_.size && feof(file_.get()) != 0;
     }
     got = static_cast<uint32_t>(out.pos);
     at_ += got;
     return at_ <= bytes_max || fail("unpacks to more than " + std::to_string(bytes_max) + " bytes");
+  }
+
+  bool ends_whole() override {
+    uint8_t more = 0;
+    uint32_t got = 0;
+    return read(&more, 1, got) && (whole_ || got != 0 || fail("truncated within the checksum of its compression"));
   }
 
   bool seek(uint64_t offset) override {
@@ -76,6 +84,7 @@ class PackedInput final : public Input {
   ZSTD_inBuffer in_ = {};
   uint64_t at_ = 0;  ///< decompressed bytes returned so far
   bool ended_ = false;
+  bool whole_ = true;  ///< the bytes so far end with a whole frame
 };
 
 class PackedOutput final : public Output {
