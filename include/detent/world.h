@@ -58,8 +58,8 @@ struct WorldDef {
   uint32_t substeps = 0;
   uint32_t substeps_max = 32;  ///< largest number that the step chooses if `substeps` is 0, [1, 64]
   /// The accuracy of contacts at rest: the step chooses so many substeps that a contact sinks under its load by at most
-  /// this fraction of the smaller extent, [2^-12, 2^-3]. A quarter of the value takes about twice the substeps. Islands
-  /// of more than 1,000 contacts take fewer substeps than that.
+  /// this fraction of the smaller extent, [2^-12, 2^-3]. A quarter of the value takes about twice the substeps. Their
+  /// number is bounded by `substeps_max`, and in large islands by their contacts (SPEC.md, "Substeps").
   Real resting_penetration = Real(1.0 / 144);
   uint32_t iterations = 1;  ///< solver iterations over the contacts in a substep, [1, 64]
   /// The iterations of a substep end early if the last iteration changed no velocity by more than 2^-convergence g h.

@@ -222,6 +222,30 @@ DETENT_TEST(substeps, keep_the_number_that_is_asked_for) {
   EXPECT_EQ(least.run(10).substeps_max, 1u);
 }
 
+/// A light box bears one of 20 times its mass.
+DETENT_TEST(substeps, keep_contacts_at_rest_within_the_permitted_penetration) {
+  for (const double permitted : {1.0 / 32, 1.0 / 144, 1.0 / 512}) {
+    WorldDef def;
+    def.resting_penetration = real(permitted);
+    def.substeps_max = 64;
+    def.sleeping = false;
+    Lab lab({3, 9, 0}, def);
+    lab.add_ground();
+    const BodyId light = lab.add_box(0.5, 0, 0.5, 0);
+    BodyDef top;
+    top.shape = box(reals(0.5, 0.5, 0.5));
+    top.position = position(0, 1.5, 0);
+    top.mass = scaled(20000);
+    const BodyId heavy = lab.add(top);
+    lab.run(240);
+    const double sunk = 0.5 - lab.motion(light).position[1];
+    const double between = lab.motion(light).position[1] + 1 - lab.motion(heavy).position[1];
+    EXPECT_LE(sunk, permitted);
+    EXPECT_LE(between, permitted);
+    EXPECT_GT(sunk + between, permitted / 16) << "it takes no more substeps than that";
+  }
+}
+
 DETENT_TEST(sleep, what_joints_hold_wakes_whom_its_longer_reach_touches) {
   WorldDef def;
   def.gravity = {0.0, 0.0, 0.0};
