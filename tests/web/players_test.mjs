@@ -123,9 +123,11 @@ test('beyond the window the machines wait, and still agree', options, async () =
 test('a key is a player’s input, and the other machine rolls back', options, async () => {
   const page = await open('loss=0&jitter=0&delay=100');
   for (const player of [0, 1]) await page.locator('.auto').nth(player).click();
-  await agrees(page, 60);
+  // Every input from before the clicks has come once both agree over later ticks than those made by now.
+  const now = Math.max(...(await both(page, 'tick')));
+  await agrees(page, now + 1);
   const before = await both(page, 'ticks rolled back');
-  await agrees(page, 120);
+  await agrees(page, now + 60);
   assert.deepEqual(await both(page, 'ticks rolled back'), before); // no key is pressed
   await page.keyboard.down('d');
   await page.waitForFunction(
