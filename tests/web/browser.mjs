@@ -34,13 +34,15 @@ export const flags = [
 ];
 
 export class Browser {
-  static async start({ webgl = true } = {}) {
+  /** `scale`: pixels that are drawn for one of the layout's. A processor draws here: its time grows with their number. */
+  static async start({ webgl = true, scale = 0.25 } = {}) {
     const { chromium: driver } = packages('playwright-core');
     const folder = mkdtempSync(join(tmpdir(), 'detent-page-'));
     const context = await driver.launchPersistentContext(join(folder, 'profile'), {
       executablePath: chromium,
       args: webgl ? flags : [...flags.slice(0, 8), '--disable-3d-apis'],
       viewport: { width: 1280, height: 800 },
+      deviceScaleFactor: scale,
       offline: true,
     });
     return new Browser(context, folder);
@@ -97,9 +99,14 @@ export class Browser {
     return address;
   }
 
-  /** Opens a page from the disk. `faults` collects what the page says on its console as an error, and its exceptions. */
-  async open(address) {
+  /**
+   * Opens a page from the disk. `script`: a function that runs before those of the page. `faults` collects what the page
+   * says on its console as an error, and its exceptions.
+   */
+  async open(address, { viewport, script } = {}) {
     const page = await this.context.newPage();
+    if (viewport !== undefined) await page.setViewportSize(viewport);
+    if (script !== undefined) await page.addInitScript(script);
     page.faults = [];
     page.on('console', (message) => {
       // A remark of the software renderer, which only a screenshot causes.
@@ -128,8 +135,8 @@ export const shows = (page, tick) =>
 
 /** Runs a function in an empty page, whose policy allows it, with the pixels of PNGs. */
 async function withPixels(page, pngs, body) {
-  const empty = await page.context().newPage();
-  const result = await empty.evaluate(
+  const [empty] = page.context().pages(); // the one that a browser starts with
+  return empty.evaluate(
     async ([list, source]) => {
       const pixels = [];
       for (const base64 of list) {
@@ -144,8 +151,6 @@ async function withPixels(page, pngs, body) {
     },
     [pngs.map((png) => png.toString('base64')), String(body)],
   );
-  await empty.close();
-  return result;
 }
 
 /** Waits until the page has drawn what it was told, on a slow machine too. */
@@ -154,16 +159,24 @@ export const drawn = (page) =>
     () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))),
   );
 
-/** A picture of the scene, and how many colours it has. */
+/** A picture of the scene alone; how many colours it has, and how many vivid ones: those of bodies that move. */
 export async function picture(page) {
   await drawn(page);
-  const png = await page.screenshot({ clip: { x: 310, y: 60, width: 610, height: 480 } });
-  const colours = await withPixels(page, [png], (data) => {
-    const known = new Set();
-    for (let i = 0; i < data.length; i += 4) known.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
-    return known.size;
+  const png = await page.screenshot({
+    clip: { x: 310, y: 60, width: 610, height: 480 },
+    style: '#tools, #inspector, #notice { visibility: hidden }',
   });
-  return { png, colours };
+  const [colours, vivid] = await withPixels(page, [png], (data) => {
+    const [known, bright] = [new Set(), new Set()];
+    for (let i = 0; i < data.length; i += 4) {
+      const [red, green, blue] = data.subarray(i);
+      const colour = (red << 16) | (green << 8) | blue;
+      known.add(colour);
+      if (Math.max(red, green, blue) - Math.min(red, green, blue) > 60) bright.add(colour);
+    }
+    return [known.size, bright.size];
+  });
+  return { png, colours, vivid };
 }
 
 /** Of two pictures: the mean difference of a channel, 0 to 255; 255 if their sizes differ. */

@@ -25,29 +25,36 @@ const samples = readFileSync(new URL('ports/web/samples.txt', root), 'utf8')
 const titleOf = (file) => basename(file, '.json').replaceAll('_', ' ');
 const run = (...list) => execFileSync(tool, list, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
 
-/** Opens a page in a small window: to draw takes its time here. */
-async function open(address) {
-  const page = await browser.open(address);
-  await page.setViewportSize({ width: 930, height: 560 });
-  return page;
-}
+/** Opens a page in a small window. */
+const open = (address, script) => browser.open(address, { viewport: { width: 930, height: 560 }, script });
+/**
+ * As open(), but each scene is paused when it begins, before its first tick: Playwright's keys come later, on a slow
+ * machine after any number of ticks.
+ */
+const openPaused = (address) =>
+  open(address, () => {
+    const pause = () => window.dispatchEvent(new KeyboardEvent('keydown', { key: ' ' }));
+    const attributes = { subtree: true, attributeFilter: ['data-scene'] };
+    new MutationObserver(pause).observe(document, attributes);
+  });
 const tickOf = (page) => page.evaluate(() => Number(document.body.dataset.tick));
 const passes = (page, tick) =>
   page.waitForFunction((wanted) => Number(document.body.dataset.tick) >= wanted, tick, { timeout: 60000 });
-/** Waits for this scene, and pauses it. */
-async function paused(page, name) {
-  await page.waitForFunction((wanted) => document.body.dataset.scene === wanted && document.body.dataset.tick, name, {
-    timeout: 30000,
-  });
-  await page.keyboard.press(' ');
-}
-/** Steps a paused scene to a tick; returns the digest that the page shows there. */
+/** Waits for the start of this scene, in a page that openPaused() has opened. */
+const starts = (page, name) =>
+  page.waitForFunction(
+    (wanted) => document.body.dataset.scene === wanted && document.body.dataset.tick === '0',
+    name,
+    { timeout: 60000 },
+  );
+/** Steps a paused scene to a tick, by keys between two frames; returns the digest that the page shows there. */
 async function digestAt(page, tick) {
-  await drawn(page);
-  const left = tick - (await tickOf(page));
-  assert.ok(left >= 0, `${-left} ticks beyond ${tick}`);
-  for (let i = 0; i < Math.floor(left / 10); ++i) await page.keyboard.press('Shift+ArrowRight');
-  for (let i = 0; i < left % 10; ++i) await page.keyboard.press('ArrowRight');
+  await page.evaluate((wanted) => {
+    const left = wanted - Number(document.body.dataset.tick);
+    const press = (shiftKey) => window.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowRight', shiftKey }));
+    for (let i = 0; i < Math.floor(left / 10); ++i) press(true);
+    for (let i = 0; i < left % 10; ++i) press(false);
+  }, tick);
   await page.waitForFunction((wanted) => Number(document.body.dataset.tick) === wanted, tick, { timeout: 30000 });
   return page.textContent('#digest');
 }
@@ -58,12 +65,12 @@ test('there are samples of each kind', () => {
 });
 
 test('every sample loads, is drawn, and has the digest of detent run after 60 ticks', sampleOptions, async (t) => {
-  const page = await open(samplesPage.href);
-  await page.setViewportSize({ width: 560, height: 360 }); // a processor draws it: the time grows with the size
+  // It begins with another scene than the first that is clicked, which would begin twice.
+  const page = await openPaused(`${samplesPage.href}#${encodeURIComponent(titleOf(samples.at(-1)))}`);
   for (const file of samples) {
     const name = titleOf(file);
     await page.locator('#list button', { hasText: new RegExp(`^${name}$`) }).click();
-    await paused(page, name);
+    await starts(page, name);
     const digest = await digestAt(page, 60);
     const summary = JSON.parse(run('run', fileURLToPath(new URL(file, root)), '--ticks', '60', '--json').split('\n')[0]);
     assert.equal(digest, summary.digest, name);
@@ -91,14 +98,15 @@ test('the list is searched by names and descriptions', sampleOptions, async () =
 });
 
 test('an address names a scene, and bodies behind walls are seen through glass', sampleOptions, async () => {
-  const page = await open(`${samplesPage.href}#eight%20fast%20bodies%20in%20a%20room`);
-  await paused(page, 'eight fast bodies in a room');
+  const page = await openPaused(`${samplesPage.href}#eight%20fast%20bodies%20in%20a%20room`);
+  await starts(page, 'eight fast bodies in a room');
   await drawn(page);
   assert.equal(await page.getAttribute('[data-look=glass]', 'aria-pressed'), 'true');
-  const glass = (await picture(page)).colours;
+  const glass = (await picture(page)).vivid;
+  assert.ok(glass > 50, `${glass} colours of bodies through glass`);
   await page.keyboard.press('g');
-  await drawn(page);
-  assert.ok((await picture(page)).colours < glass / 2, 'the walls do not hide the bodies');
+  const walls = (await picture(page)).vivid;
+  assert.equal(walls, 0, 'the walls do not hide the bodies');
   await page.evaluate(() => (location.hash = '%zz'));
   await page.waitForFunction(() => document.body.dataset.scene === 'stack');
   await drawn(page);
@@ -147,7 +155,7 @@ const slide = (page, id, value) =>
   );
 
 test('a body is picked up with the mouse, moved and thrown, and the recording of it verifies', options, async () => {
-  const { address } = pageOf('crate', { ticks: 300, bodies: [ground, crate] });
+  const { address } = pageOf('crate', { ticks: 3000, bodies: [ground, crate] });
   const page = await open(address);
   await passes(page, 5);
   const [x, y] = await middle(page);
@@ -187,8 +195,8 @@ test('a body is picked up with the mouse, moved and thrown, and the recording of
 
 test('the camera turns where no body is held', options, async () => {
   const { address } = pageOf('turned', { bodies: [ground, crate] });
-  const page = await open(address);
-  await paused(page, 'turned');
+  const page = await openPaused(address);
+  await starts(page, 'turned');
   const still = (await picture(page)).png;
   const [x, y] = await middle(page);
   await page.mouse.move(x + 300, y - 150);
@@ -225,8 +233,8 @@ test('the camera turns again after a restart has taken the body from the mouse',
 
 test('a recording that is saved after a call and before the next step verifies', options, async () => {
   const { address } = pageOf('between', { ticks: 100, bodies: [ground, crate] });
-  const page = await open(address);
-  await paused(page, 'between');
+  const page = await openPaused(address);
+  await starts(page, 'between');
   await digestAt(page, 60);
   await slide(page, 'gravity', 5);
   await drawn(page);
@@ -248,8 +256,8 @@ test('sliders change gravity, substeps and friction by recorded calls', options,
   const slope = { name: 'slope', type: 'fixed', rotation: { axis: [0, 0, 1], degrees: 20 }, shape: { type: 'half_space' } };
   const at = { ...crate, position: [0, 0.55, 0], rotation: { axis: [0, 0, 1], degrees: 20 } };
   const { address } = pageOf('slope', { ticks: 600, bodies: [slope, at] });
-  const page = await open(address);
-  await paused(page, 'slope');
+  const page = await openPaused(address);
+  await starts(page, 'slope');
   await digestAt(page, 60);
   const [x, y] = await middle(page);
   await page.mouse.click(x, y);
@@ -270,7 +278,7 @@ test('sliders change gravity, substeps and friction by recorded calls', options,
   await saved(page, 'slope');
   // From the start again, all is as the scene says.
   await page.keyboard.press('Home');
-  await paused(page, 'slope');
+  await starts(page, 'slope');
   await drawn(page);
   assert.equal(await page.textContent('#gravity-value'), '-9.8 m/s²');
   assert.equal(await page.textContent('#friction-value'), '× 1');
@@ -281,8 +289,8 @@ test('sliders change gravity, substeps and friction by recorded calls', options,
 test('a scene makes its calls at their ticks, and goes on live after its last one', options, async () => {
   const lift = { tick: 20, call: 'set_gravity', gravity: [0, 3, 0] };
   const { file, address } = pageOf('lift', { ticks: 30, bodies: [ground, crate], actions: [lift] }, '--config', 'f32');
-  const page = await open(address);
-  await paused(page, 'lift');
+  const page = await openPaused(address);
+  await starts(page, 'lift');
   const digest = await digestAt(page, 30);
   assert.equal(digest, JSON.parse(run('run', file, '--config', 'f32', '--json').split('\n')[0]).digest);
   assert.equal(await page.textContent('#verdict'), 'as recorded');
@@ -296,8 +304,8 @@ test('a call of the scene that the changed world refuses is told', options, asyn
   // An impulse at a point that the body has left.
   const push = { tick: 90, call: 'apply_impulse', body: 'crate', impulse: [1, 0, 0], point: [0, 0.5, 0] };
   const { address } = pageOf('pushed', { ticks: 100, bodies: [ground, crate], actions: [push] });
-  const page = await open(address);
-  await paused(page, 'pushed');
+  const page = await openPaused(address);
+  await starts(page, 'pushed');
   await slide(page, 'gravity', 10);
   await digestAt(page, 100);
   assert.equal(await page.textContent('#lost'), '1 calls of the scene refused');

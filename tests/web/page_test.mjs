@@ -13,8 +13,8 @@ before(async () => {
 after(() => browser?.stop());
 
 /** Opens the page of a recording, runs `body`, and requires that the page had no fault. */
-async function withPage(name, bytes, body) {
-  const page = await browser.open(browser.make(name, bytes));
+async function withPage(name, bytes, body, by = browser) {
+  const page = await by.open(by.make(name, bytes));
   await body(page);
   assert.deepEqual(page.faults, []);
   await page.close();
@@ -229,13 +229,13 @@ test('what cannot be shown is refused in a sentence', options, async () => {
   }
 });
 
-test('a browser without WebGL verifies, and says that it does not draw', options, async () => {
+test('a browser without WebGL verifies, and says that it does not draw', options, async (t) => {
   const plain = await Browser.start({ webgl: false });
+  t.after(() => plain.stop());
   const page = await plain.open(plain.make('stack.rec', recording('stack', 'fx64')));
   assert.equal(await verdictOf(page), 'every tick agrees');
   assert.match(await page.textContent('#notice'), /no WebGL/);
   await page.close();
-  await plain.stop();
 });
 
 test('a name that looks like markup stays a name', options, () =>
@@ -245,8 +245,10 @@ test('a name that looks like markup stays a name', options, () =>
   }),
 );
 
-test('the picture of docs/view.md is what the page shows', options, () =>
-  withPage('jointed.rec', recording('jointed', 'fx64'), async (page) => {
+test('the picture of docs/view.md is what the page shows', options, async (t) => {
+  const sharp = await Browser.start({ scale: 1 });
+  t.after(() => sharp.stop());
+  const body = async (page) => {
     await verdictOf(page);
     await page.setViewportSize({ width: 1060, height: 680 });
     for (let i = 0; i < 6; ++i) await page.keyboard.press('Shift+ArrowRight');
@@ -274,8 +276,9 @@ test('the picture of docs/view.md is what the page shows', options, () =>
       difference < 2,
       `the pixels differ by ${difference} of 255: renew it with DETENT_RENEW_PICTURE=1 tests/web/run`,
     );
-  }),
-);
+  };
+  await withPage('jointed.rec', recording('jointed', 'fx64'), body, sharp);
+});
 
 test('the camera turns with the mouse, and follows a body', options, () =>
   withPage('balls.rec', recording('balls', 'fx64'), async (page) => {

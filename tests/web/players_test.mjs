@@ -17,11 +17,8 @@ before(async () => {
 });
 after(() => Promise.all([browser?.stop(), blind?.stop()]));
 
-async function open(settings, by = blind) {
-  const page = await by.open(`${address.href}#${settings}`);
-  await page.setViewportSize({ width: 720, height: 440 });
-  return page;
-}
+const open = (settings, by = blind) =>
+  by.open(`${address.href}#${settings}`, { viewport: { width: 720, height: 440 } });
 const agrees = (page, ticks) =>
   page.waitForFunction((wanted) => Number(document.body.dataset.agreed) >= wanted, ticks, { timeout: 120000 });
 const is = (page, verdict) =>
@@ -165,8 +162,9 @@ test('without WebGL the match runs', options, async () => {
 });
 
 test('the picture in the documentation is that of the page', options, async (t) => {
-  const page = await open('fast&delay=200&pause=505', browser);
-  await page.reload(); // the camera fits the field into the window as it was at the start
+  const sharp = await Browser.start({ scale: 1 });
+  t.after(() => sharp.stop());
+  const page = await open('fast&delay=200&pause=505', sharp);
   await paused(page);
   const png = await page.screenshot();
   const file = new URL('docs/players.png', root);

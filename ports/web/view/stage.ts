@@ -67,6 +67,8 @@ export class Stage {
   private readonly controls: OrbitControls;
   private readonly light = new DirectionalLight('#fff4e0', 2.4);
   private scene = new Scene();
+  /** Not drawn any more. Released once the next one has been drawn: it takes over their shaders. */
+  private readonly past: Scene[] = [];
   private extent!: Extent;
   private origin: Vec3 = [0, 0, 0];
   private radius = 1;
@@ -82,13 +84,14 @@ export class Stage {
     this.controls.enableDamping = true;
     this.controls.dampingFactor = 0.15;
     this.light.castShadow = true;
-    this.light.shadow.mapSize.setScalar(2048);
+    // A window that a browser shows smaller has a smaller shadow map.
+    this.light.shadow.mapSize.setScalar(2048 * Math.min(1, window.devicePixelRatio));
     this.open(emptyExtent);
   }
 
   /** Begins with an empty scene, and looks at where its bodies will be. */
   open(extent: Extent): void {
-    release(this.scene);
+    this.past.push(this.scene);
     this.extent = extent;
     this.origin = extent.middle;
     this.radius = extent.radius;
@@ -183,6 +186,7 @@ export class Stage {
     view.updateProjectionMatrix();
     this.renderer.shadowMap.needsUpdate = true;
     this.renderer.render(this.scene, this.camera);
+    for (const scene of this.past.splice(0)) release(scene);
   }
   /** Takes over the size of the canvas; true if it is new. */
   private fit(): boolean {

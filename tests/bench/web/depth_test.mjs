@@ -36,10 +36,10 @@ test('a depth is that by which a shape must be moved, and a shape that is moved 
   for (let i = 0; i < 400; ++i) {
     const a = of(shapes[i % 4], [0, 0, 0], random.rotation());
     const rotation = random.rotation();
-    const shape = shapes[(i >> 2) % 4];
     const position = [0, 0, 0].map(() => random.between(-0.3, 0.3));
-    const found = depth(a, of(shape, position, rotation));
-    near(depth(of(shape, position, rotation), a), found);
+    const b = of(shapes[(i >> 2) % 4], position, rotation);
+    const found = depth(a, b);
+    near(depth(b, a), found);
     if (found === 0) continue;
     ++deep;
     // Of many directions none parts the shapes by less, and one nearly by as much.
@@ -50,7 +50,7 @@ test('a depth is that by which a shape must be moved, and a shape that is moved 
       const extent = (core, sign) =>
         Math.max(...core.points.map((p) => (sign * (p[0] * axis[0] + p[1] * axis[1] + p[2] * axis[2])) / size)) +
         core.radius;
-      least = Math.min(least, extent(a, 1) + extent(of(shape, position, rotation), -1));
+      least = Math.min(least, extent(a, 1) + extent(b, -1));
     }
     assert.ok(found <= least + 1e-9 && found > least - 0.05, `${found} of ${least}`);
   }
