@@ -45,6 +45,7 @@ export class Browser {
       deviceScaleFactor: scale,
       offline: true,
     });
+    context.setDefaultTimeout(120000); // ms: a slow machine, beside other work
     return new Browser(context, folder);
   }
   constructor(context, folder) {
@@ -124,14 +125,12 @@ export class Browser {
 
 /** Waits for the page to say whether every tick agrees. */
 export async function verdictOf(page) {
-  await page.waitForFunction(() => ['good', 'bad'].includes(document.body.dataset.verdict), undefined, {
-    timeout: 60000,
-  });
+  await page.waitForFunction(() => ['good', 'bad'].includes(document.body.dataset.verdict));
   return page.textContent('#verdict');
 }
 /** Waits until the page shows this tick. */
 export const shows = (page, tick) =>
-  page.waitForFunction((wanted) => document.body.dataset.tick === String(wanted), tick, { timeout: 30000 });
+  page.waitForFunction((wanted) => document.body.dataset.tick === String(wanted), tick);
 
 /** Runs a function in an empty page, whose policy allows it, with the pixels of PNGs. */
 async function withPixels(page, pngs, body) {

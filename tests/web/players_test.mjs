@@ -20,11 +20,11 @@ after(() => Promise.all([browser?.stop(), blind?.stop()]));
 const open = (settings, by = blind) =>
   by.open(`${address.href}#${settings}`, { viewport: { width: 720, height: 440 } });
 const agrees = (page, ticks) =>
-  page.waitForFunction((wanted) => Number(document.body.dataset.agreed) >= wanted, ticks, { timeout: 120000 });
+  page.waitForFunction((wanted) => Number(document.body.dataset.agreed) >= wanted, ticks);
 const is = (page, verdict) =>
-  page.waitForFunction((wanted) => document.body.dataset.verdict === wanted, verdict, { timeout: 60000 });
+  page.waitForFunction((wanted) => document.body.dataset.verdict === wanted, verdict);
 const paused = async (page) => {
-  await page.waitForSelector('#pause.on', { timeout: 120000 });
+  await page.waitForSelector('#pause.on');
   await drawn(page);
 };
 /** The numbers in a row of a player's table. */
@@ -130,7 +130,6 @@ test('a key is a player’s input, and the other machine rolls back', options, a
   await page.waitForFunction(
     (count) => parseInt(document.querySelectorAll('.player')[1].querySelectorAll('td')[5].textContent) > count,
     before[1],
-    { timeout: 30000 },
   );
   assert.equal((await both(page, 'ticks rolled back'))[0], before[0]);
   await page.keyboard.up('d');
@@ -138,7 +137,6 @@ test('a key is a player’s input, and the other machine rolls back', options, a
   await page.waitForFunction(
     (count) => parseInt(document.querySelectorAll('.player')[0].querySelectorAll('td')[5].textContent) > count,
     before[0],
-    { timeout: 30000 },
   );
   await page.keyboard.up('ArrowUp');
   noFaults(page);

@@ -2,10 +2,10 @@
 import { element } from './elements.js';
 import type { EmbeddedScene } from './embedded.js';
 
-/** An address may be anything. */
+/** Of the scene that an address names, with "_" for " ", as files are called. An address may be anything. */
 function nameIn(hash: string): string {
   try {
-    return decodeURIComponent(hash.slice(1));
+    return decodeURIComponent(hash.slice(1)).replaceAll('_', ' ');
   } catch {
     return '';
   }
@@ -28,7 +28,7 @@ export function bindSamples(scenes: EmbeddedScene[], choose: (scene: EmbeddedSce
     row.textContent = names[i]!;
     row.title = scene.text;
     row.onclick = () => {
-      location.hash = encodeURIComponent(names[i]!);
+      location.hash = encodeURIComponent(names[i]!.replaceAll(' ', '_'));
     };
     return row;
   });

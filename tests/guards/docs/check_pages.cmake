@@ -1,6 +1,6 @@
 # cmake -DROOT=<repository> -P check_pages.cmake
 # Fails if a page (README.md, a README.md of examples, docs/*.md) shows C++ that is not in a program of examples/ line by line,
-# but for the indentation, or links to a file that is not there.
+# but for the indentation, or links to a file that is not there, or names a live sample that is not there.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -64,6 +64,19 @@ function(check_links page text)
   set(faults "${faults}" PARENT_SCOPE)
 endfunction()
 
+file(STRINGS ${ROOT}/ports/web/samples.txt samples REGEX "^[^#]")
+list(TRANSFORM samples REPLACE "^.*/(.*)[.]json$" "\\1")
+function(check_samples page text)
+  string(REGEX MATCHALL "samples[.]html#[A-Za-z0-9_]*" addresses "${text}")
+  foreach(address IN LISTS addresses)
+    string(REPLACE "samples.html#" "" name "${address}")
+    if(NOT name IN_LIST samples)
+      string(APPEND faults "\n  ${page} names the live sample ${name}, which ports/web/samples.txt does not list")
+    endif()
+  endforeach()
+  set(faults "${faults}" PARENT_SCOPE)
+endfunction()
+
 file(GLOB_RECURSE pages RELATIVE ${ROOT} ${ROOT}/docs/*.md ${ROOT}/examples/*.md)
 list(APPEND pages README.md)
 foreach(page CHANGELOG.md CONTRIBUTING.md DESIGN.md SPEC.md)
@@ -76,6 +89,7 @@ foreach(page IN LISTS pages)
   file(READ ${ROOT}/${page} text)
   check_blocks(${page} "\n${text}")
   check_links(${page} "${prose}")
+  check_samples(${page} "${prose}")
 endforeach()
 
 list(LENGTH pages page_count)
