@@ -14,6 +14,7 @@ using namespace detent_zoo;
 namespace {
 
 constexpr int k_exit_good = 0, k_exit_bad = 1;
+constexpr const char* k_folder = DETENT_ROOT "/tests/campaigns/zoo/scenes";
 
 struct Options {
   std::vector<std::string> scenes, configs;
@@ -57,11 +58,14 @@ int run(const Options& options) {
         continue;
       }
       if (terminal) fprintf(stderr, "\r\033[K%s %s", entry.scene.c_str(), engine.config);
-      const Row row = {&entry, engine.config, visit(entry, engine, DETENT_ROOT "/tests/campaigns/zoo/scenes")};
+      const Row row = {&entry, engine.config, visit(entry, engine, k_folder)};
       const std::string surprise = surprises(entry, engine.config, row.verdict);
       if (terminal) fprintf(stderr, "\r\033[K");
       printf("%s\n", line_of(row).c_str());
-      if (!surprise.empty()) printf("  not as zoo.csv says: %s", surprise.c_str());
+      if (!surprise.empty()) {
+        printf("  not as zoo.csv says: %s  to see it: detent view %s/%s.json --config %s -o page.html\n",
+               surprise.c_str(), k_folder, entry.scene.c_str(), engine.config);
+      }
       fflush(stdout);
       good = good && surprise.empty();
       if (!row.verdict.problem.empty()) continue;

@@ -1,4 +1,6 @@
 #include <gtest/gtest.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 #include <fstream>
 #include <iterator>
@@ -10,11 +12,22 @@ namespace {
 
 const std::string k_folder = DETENT_ROOT "/tests/campaigns/zoo/scenes";
 
+/// Records the scene, writes its page, and says where they are.
+void leave_page(const Entry& entry, const std::string& config) {
+  const std::string command = "'" DETENT_ROOT "/tests/common/leave_page' '" DETENT_TOOL "' '" DETENT_FAILED "' '" +
+                              k_folder + "/" + entry.scene + ".json' " + config;
+  fflush(stdout);  // it prints to the same stream
+  EXPECT_EQ(system(command.c_str()), 0);
+}
+
 /// Plays a scene of the list in one configuration: the failed checks must be the gaps of zoo.csv.
 class SceneTest : public testing::Test {
  public:
   SceneTest(const Entry& entry, const Engine& engine) : entry_(entry), engine_(engine) {}
-  void TestBody() override { EXPECT_EQ(surprises(entry_, engine_.config, visit(entry_, engine_, k_folder)), ""); }
+  void TestBody() override {
+    EXPECT_EQ(surprises(entry_, engine_.config, visit(entry_, engine_, k_folder)), "");
+    if (HasFailure()) leave_page(entry_, engine_.config);
+  }
 
  private:
   Entry entry_;
