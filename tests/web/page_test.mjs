@@ -51,9 +51,12 @@ test('scrubbing, steps and playing change the tick and the picture', options, ()
     await page.click('#end');
     await shows(page, 240);
     await page.click('#start');
+    await page.selectOption('#speed', '0.0625'); // or it may end before the key that pauses it, on a slow machine
+    await page.locator('#speed').blur();
     await page.keyboard.press(' ');
     await page.waitForFunction(() => Number(document.body.dataset.tick) > 5);
     await page.keyboard.press(' ');
+    await drawn(page);
     const paused = await page.textContent('#tick');
     await page.waitForTimeout(200);
     assert.equal(await page.textContent('#tick'), paused);
