@@ -1,7 +1,7 @@
 #include "ccd/compound_impact.h"
 
 #include "ccd/terrain_impact.h"
-#include "math/root.h"
+#include "contact/part_culling.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -17,33 +17,12 @@ struct PartSearch {
   Meeting& meeting;
   const ConvexParts parts_a, parts_b;
   const Motion motion_a, motion_b;
-  /// Upper bound, m, on how much the distance between a point of A and a point of B can shrink.
-  Real closing = 0.0;
-  bool bounded = false;  ///< `closing` is valid
 
   bool shrink_part(const SweptBody& body, const ConvexParts& parts, uint32_t i, Real shrink_depth,
                    Convex& convex) const {
     if (!is_compound(body.properties)) return shrink_convex(assets, body.properties, shrink_depth, convex);
     return parts.convex(i, shrink_halvings(shrink_depth, shape_extent(body.properties)) != 0, convex) &&
            shrink_convex(shrink_depth, 0, convex);
-  }
-
-  /// The centre of a part's bounds, m, relative to A's position, world axes.
-  Vec3<Real> middle_of(const ConvexParts& parts, uint32_t i, const Pose& pose) const {
-    Vec64 middle, half;
-    parts.place(i, middle, half);
-    const Position &at = pose.position, &from = motion_a.start.position;
-    const Vec3<Real> local = {real_from_raw(middle.x), real_from_raw(middle.y), real_from_raw(middle.z)};
-    return rotate(pose.rotation, local) +
-           Vec3<Real>{real_difference(at.x, from.x), real_difference(at.y, from.y), real_difference(at.z, from.z)};
-  }
-
-  bool may_collide(uint32_t i, uint32_t j) const {
-    if (!bounded) return true;
-    const Vec3<Real> offset = middle_of(parts_b, j, motion_b.start) - middle_of(parts_a, i, motion_a.start);
-    const Real far = max(abs(offset.x), max(abs(offset.y), abs(offset.z)));
-    const Real radius = parts_a.radius(i) + parts_b.radius(j) + closing;
-    return far <= radius + scale_by_power(radius + far, -10);
   }
 
   bool ask_terrain() {
@@ -62,14 +41,24 @@ struct PartSearch {
   }
 
   bool ask_parts() {
+    const PartCulling culling(
+        b.properties, motion_b.start, a.properties, motion_a.start,
+        swing_bound(a.properties, motion_a.rotation_vector) + swing_bound(b.properties, motion_b.rotation_vector),
+        motion_a.displacement - motion_b.displacement);
+    MovingShapes shapes(motion_a, motion_b);
     for (uint32_t i = 0; i < parts_a.count(); ++i) {
+      Vec64 middle_a, half_a;
+      parts_a.place(i, middle_a, half_a);
+      culling.bring(middle_a, half_a);
       for (uint32_t j = 0; j < parts_b.count(); ++j) {
-        if (!may_collide(i, j)) continue;
+        Vec64 middle_b, half_b;
+        parts_b.place(j, middle_b, half_b);
+        if (!culling.meet(middle_b, half_b, middle_a, half_a)) continue;
         const auto at_depth = [&](Real shrink_depth, TimeOfImpact& found) {
           Convex convex_a, convex_b;
           return shrink_part(a, parts_a, i, shrink_depth, convex_a) &&
                  shrink_part(b, parts_b, j, shrink_depth, convex_b) &&
-                 time_of_impact(convex_a, motion_a, convex_b, motion_b, found) == Status::ok;
+                 shapes.find(convex_a, convex_b, {}, meeting.impact.time, found);
         };
         if (!climb(a, b, time, cores, at_depth, meeting)) return false;
       }
@@ -93,9 +82,6 @@ bool compound_impact(const AssetTable& assets, const FeatureTable& features, con
                        ConvexParts(b.properties, assets),
                        motion_from(a, time),
                        motion_from(b, time)};
-  const bool is_plane = is_half_space(a.properties) || is_half_space(b.properties);
-  search.bounded = !is_plane;
-  search.closing = closing_bound(a, b, time);
   return is_terrain(a.properties) || is_terrain(b.properties) ? search.ask_terrain() : search.ask_parts();
 }
 

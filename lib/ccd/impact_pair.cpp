@@ -7,8 +7,6 @@
 #include "math/root.h"
 #include "motion/angular_velocity.h"
 #include "shape/shape_properties.h"
-#include "toi/conservative_advancement.h"
-#include "toi/known_axis.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -120,12 +118,6 @@ Real motion_bound(const SweptBody& body, Fraction time) {
   return length(rest.displacement) + swing_bound(body.properties, rest.rotation_vector);
 }
 
-Real closing_bound(const SweptBody& a, const SweptBody& b, Fraction time) {
-  const Sweep rest_a = rest_of(a.sweep, time), rest_b = rest_of(b.sweep, time);
-  return length(rest_b.displacement - rest_a.displacement) + swing_bound(a.properties, rest_a.rotation_vector) +
-         swing_bound(b.properties, rest_b.rotation_vector);
-}
-
 bool shrink_convex(const AssetTable& assets, const BodyProperties& properties, Real shrink_depth, Convex& convex) {
   Convex made;
   if (!body_convex(properties, assets, made) ||
@@ -149,36 +141,43 @@ int shrink_halvings(Real shrink_depth, Real extent) {
   return (shrink_depth > scale_by_power(extent, -4) ? 1 : 0) + (shrink_depth > scale_by_power(extent, -2) ? 1 : 0);
 }
 
-bool PairSearch::prepare_pair() {
-  const Motion motion_a = motion_from(a_, time_), motion_b = motion_from(b_, time_);
-  if (is_half_space(a_.properties) || is_half_space(b_.properties)) {
-    prepared_ = prepare(convex_a_, motion_a, convex_b_, motion_b, pair_) == Status::ok;
-    return prepared_;
+bool climb_with(const SweptBody& a, const SweptBody& b, Fraction time, const ShrunkenCores& cores,
+                const FindAtDepth& find, Meeting& meeting) {
+  TimeOfImpact found;
+  bool looked_ahead = false;
+  for (Real shrink_depth = cores.first; !(shrink_depth > last_shrink_depth(cores.extent));
+       shrink_depth = next_shrink_depth(cores.extent, shrink_depth)) {
+    ++meeting.tests;
+    if (shrink_depth > cores.first) meeting.climbed = true;
+    if (!find.find(find.context, shrink_depth, found)) return false;
+    // Cores that overlap have no normal.
+    const bool now =
+        found.outcome != ToiOutcome::clear && !(time + fraction_product(k_whole_step - time, found.time) > time);
+    const auto closes = [&] {
+      return !cores.resolved &&
+             (found.outcome == ToiOutcome::undecided || (is_direction(found.normal) && !is_parting(a, b, time, found)));
+    };
+    if (now && cores.climbs && !closes()) {
+      // Cores that overlap at the last shrink depth also overlap at all smaller depths. The last depth is tested once.
+      if (looked_ahead || is_direction(found.normal)) continue;
+      looked_ahead = meeting.climbed = true;
+      ++meeting.tests;
+      if (!find.find(find.context, last_shrink_depth(cores.extent), found)) return false;
+      if (found.outcome == ToiOutcome::clear || is_direction(found.normal)) continue;
+      break;
+    }
+    meeting.take(found);
+    return true;
   }
-  pair_.a = &convex_a_;
-  pair_.b = &convex_b_;
-  if (set_displacements(motion_a, motion_b, pair_) != Status::ok) return false;
-  if (pair_.from > pair_.to) return true;  // the bounding spheres never touch: skip the rotation setup
-  pair_.absolute = moves_both(k_toi_method, pair_);
-  prepared_ = set_turnings(motion_a, motion_b, pair_) == Status::ok;
-  return prepared_;
+  meeting.left = true;
+  if (cores.resolved && !(is_direction(found.normal) && is_parting(a, b, time, found))) meeting.stuck = true;
+  return true;
 }
 
 bool PairSearch::find_convex(Real shrink_depth, const Vec3<Unit>& axis, TimeOfImpact& impact) {
-  if (!shrink_convex(assets_, a_.properties, shrink_depth, convex_a_) ||
-      !shrink_convex(assets_, b_.properties, shrink_depth, convex_b_))
-    return false;
-  if (!(prepared_ ? set_block(pair_.offset_whole, pair_.displacement_whole, pair_) == Status::ok : prepare_pair()))
-    return false;
-  Vec32 normal;
-  const bool known = raw_from_direction(axis, normal);
-  if (known && stays_clear(pair_, normal)) {
-    impact.outcome = ToiOutcome::clear;
-    impact.time = k_whole_step;
-  } else {
-    conservative_advancement(pair_, k_toi_method, impact, known ? INT32_MAX : enough_apart(pair_));
-  }
-  return true;
+  return shrink_convex(assets_, a_.properties, shrink_depth, convex_a_) &&
+         shrink_convex(assets_, b_.properties, shrink_depth, convex_b_) &&
+         shapes_.find(convex_a_, convex_b_, axis, k_whole_step, impact);
 }
 
 bool PairSearch::find(const ShrunkenCores& cores, Vec3<Unit> axis, Meeting& meeting) {

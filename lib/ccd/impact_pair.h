@@ -4,8 +4,8 @@
 #include <detent/features.h>
 #include <detent/toi.h>
 
+#include "ccd/moving_shapes.h"
 #include "shape/sweep.h"
-#include "toi/moving_pair.h"
 
 /// Computes when the bodies of a pair collide in the rest of a tick.
 namespace detent {
@@ -58,9 +58,6 @@ Real swing_bound(const BodyProperties& properties, const Vec3<Real>& rotation_ve
 /// tick; see swing_bound().
 Real motion_bound(const SweptBody& body, Fraction time);
 
-/// An upper bound, m, of how much the distance of two bodies can shrink in the rest of the tick; see swing_bound().
-Real closing_bound(const SweptBody& a, const SweptBody& b, Fraction time);
-
 /// Makes the body's shape smaller by `shrink_depth`, m, on all sides. Returns false if the shape is not available.
 bool shrink_convex(const AssetTable& assets, const BodyProperties& properties, Real shrink_depth, Convex& convex);
 
@@ -97,41 +94,26 @@ struct Meeting {
   }
 };
 
-/// Tests two convex shapes, or a convex shape and a terrain, with `find`. If `cores.climbs`, increases the shrink depth
-/// while the cores at `time` overlap, touch without approaching, or touch and are marked as resolved. Returns false if
-/// `find` returns false: the shapes could not be tested.
+/// Finds the impact of two shapes at a shrink depth, m. Returns false if the shapes could not be tested.
+struct FindAtDepth {
+  bool (*find)(const void* context, Real shrink_depth, TimeOfImpact& found);
+  const void* context;
+};
+
+/// Tests two convex shapes, or a convex shape and a terrain. If `cores.climbs`, increases the shrink depth while the
+/// cores at `time` overlap, touch without approaching, or touch and are marked as resolved. Returns false if `find`
+/// returns false.
+bool climb_with(const SweptBody& a, const SweptBody& b, Fraction time, const ShrunkenCores& cores,
+                const FindAtDepth& find, Meeting& meeting);
+
+/// As climb_with(). `find`: a function object.
 template <class Find>
 bool climb(const SweptBody& a, const SweptBody& b, Fraction time, const ShrunkenCores& cores, const Find& find,
            Meeting& meeting) {
-  TimeOfImpact found;
-  bool looked_ahead = false;
-  for (Real shrink_depth = cores.first; !(shrink_depth > last_shrink_depth(cores.extent));
-       shrink_depth = next_shrink_depth(cores.extent, shrink_depth)) {
-    ++meeting.tests;
-    if (shrink_depth > cores.first) meeting.climbed = true;
-    if (!find(shrink_depth, found)) return false;
-    // Cores that overlap have no normal.
-    const bool now =
-        found.outcome != ToiOutcome::clear && !(time + fraction_product(k_whole_step - time, found.time) > time);
-    const auto closes = [&] {
-      return !cores.resolved &&
-             (found.outcome == ToiOutcome::undecided || (is_direction(found.normal) && !is_parting(a, b, time, found)));
-    };
-    if (now && cores.climbs && !closes()) {
-      // Cores that overlap at the last shrink depth also overlap at all smaller depths. The last depth is tested once.
-      if (looked_ahead || is_direction(found.normal)) continue;
-      looked_ahead = meeting.climbed = true;
-      ++meeting.tests;
-      if (!find(last_shrink_depth(cores.extent), found)) return false;
-      if (found.outcome == ToiOutcome::clear || is_direction(found.normal)) continue;
-      break;
-    }
-    meeting.take(found);
-    return true;
-  }
-  meeting.left = true;
-  if (cores.resolved && !(is_direction(found.normal) && is_parting(a, b, time, found))) meeting.stuck = true;
-  return true;
+  const auto call = [](const void* context, Real shrink_depth, TimeOfImpact& found) {
+    return (*static_cast<const Find*>(context))(shrink_depth, found);
+  };
+  return climb_with(a, b, time, cores, {call, &find}, meeting);
 }
 
 /// Finds when the bodies of a pair collide after `time`, at one shrink depth after another. The parts of the test that
@@ -140,7 +122,14 @@ class PairSearch {
  public:
   PairSearch(const AssetTable& assets, const FeatureTable& features, const SweptBody& a, const SweptBody& b,
              Fraction time)
-      : assets_(assets), features_(features), a_(a), b_(b), time_(time) {}
+      : assets_(assets),
+        features_(features),
+        a_(a),
+        b_(b),
+        time_(time),
+        motion_a_(motion_from(a, time)),
+        motion_b_(motion_from(b, time)),
+        shapes_(motion_a_, motion_b_) {}
   PairSearch(const PairSearch&) = delete;
   PairSearch& operator=(const PairSearch&) = delete;
 
@@ -150,16 +139,15 @@ class PairSearch {
   bool find(const ShrunkenCores& cores, Vec3<Unit> axis, Meeting& meeting);
 
  private:
-  bool prepare_pair();
   bool find_convex(Real shrink_depth, const Vec3<Unit>& axis, TimeOfImpact& impact);
 
   const AssetTable& assets_;
   const FeatureTable& features_;
   const SweptBody &a_, &b_;
   const Fraction time_;
-  bool prepared_ = false;
+  const Motion motion_a_, motion_b_;
   Convex convex_a_, convex_b_;
-  MovingPair pair_;
+  MovingShapes shapes_;
 };
 
 }  // namespace DETENT_NAMESPACE

@@ -102,8 +102,7 @@ Real distance_without_contact(const ImpactStage& stage, uint64_t key) {
     return (sweep.marks & (k_mark_moved | k_mark_sliver)) == k_mark_moved;
   };
   if (!stage.known.complete || (!is_known(a) && !is_known(b))) return k_zero;
-  const bool searched =
-      !has_parts(stage.bodies.properties[low], stage.bodies.properties[high]) && has_pair(stage.known.pairs, key);
+  const bool searched = has_pair(stage.known.pairs, key);
   return speculative_distance(stage.settings, stage.extent_of(key), searched ? a.speed + b.speed : k_zero, false);
 }
 
@@ -220,14 +219,22 @@ DETENT_SHARED TickMotion motion_in_tick(const ImpactStage& stage, uint32_t slot,
 /// is large, because parts of the shapes that are not in contact may then collide.
 bool are_kept_apart(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, const TickMotion& a,
                     const TickMotion& b, Real closing) {
-  if (contacts.count == 0 || is_left_to_impact(contacts[0]) ||
-      has_parts(stage.bodies.properties[pair_low(key)], stage.bodies.properties[pair_high(key)]))
-    return false;
-  const ContactWork& contact = contacts[0];
+  if (contacts.count == 0 || is_left_to_impact(contacts[0])) return false;
   const Real extent = stage.extent_of(key);
-  if (closing > scale_by_power(extent, contact.state.point_count < 3 ? -3 : -2)) return false;
-  return keeps_apart(contact, a.displacement, a.rotation_vector, b.displacement, b.rotation_vector,
-                     scale_by_power(extent, -10));
+  uint32_t least_points = k_manifold_points_max;
+  for (const ContactWork& contact : contacts)
+    least_points = contact.state.point_count < least_points ? contact.state.point_count : least_points;
+  if (closing > scale_by_power(extent, least_points < 3 ? -3 : -2)) return false;
+  // Parts without contact are farther apart than this.
+  if (has_parts(stage.bodies.properties[pair_low(key)], stage.bodies.properties[pair_high(key)]) &&
+      !(closing < distance_without_contact(stage, key)))
+    return false;
+  for (const ContactWork& contact : contacts) {
+    if (!keeps_apart(contact, a.displacement, a.rotation_vector, b.displacement, b.rotation_vector,
+                     scale_by_power(extent, -10)))
+      return false;
+  }
+  return true;
 }
 
 /// Whether a pair with these contacts need not be tested for the rest of the tick: it is too slow to collide, or its

@@ -1,5 +1,7 @@
 #include "ccd/terrain_impact.h"
 
+#include "ccd/moving_shapes.h"
+#include "distance/pair.h"
 #include "math/root.h"
 #include "shape/shape_properties.h"
 
@@ -23,7 +25,10 @@ struct TerrainSearch {
   /// The body's centre and translation relative to the terrain, in the terrain's axes at `time`, 2^-46 m. The terrain's
   /// rotation over the tick is left out.
   Vec64 centre, displacement;
-  int64_t radius;  ///< bounding radius of the body, 2^-46 m
+  Matrix32 rotation;  ///< from the body's axes to the terrain's, at `time`
+  int64_t radius;     ///< bounding radius of the body, 2^-46 m
+  int64_t swing = 0;  ///< bound on the motion of the shape's points by the rotations of both bodies, 2^-46 m
+  HullView hull = {};
   uint32_t triangle = k_no_triangle;
   TimeOfImpact first = {};
   bool failed = false;
@@ -35,11 +40,24 @@ struct TerrainSearch {
     return {centre.x - t.corner[0].x * step, centre.y - t.corner[0].y * step, centre.z - t.corner[0].z * step};
   }
 
-  /// Whether the body's bounding sphere stays on one side of the plane.
+  /// How far the shape extends along a direction in the terrain's axes, at any time, from the centre of its body on its
+  /// path. An upper bound, 2^-46 m.
+  int64_t extent_along(const Vec32& direction) const {
+    const Vec32 local = rotate_inverse(rotation, direction);
+    const Vec32 farthest = local_support(convex, hull, local, 0).local;
+    // The error of a direction is less than 2^-28, that of a point 2 units.
+    const int64_t units = (dot(farthest, local) >> 30) + 4, core = raw_core_radius(convex);
+    const int64_t extent = units * (int64_t{1} << (k_metre_bits - 30 + convex.exponent)) + (core >> 26);
+    const int64_t reach = saturated_sum(extent + raw_radius(convex), swing);
+    return reach < radius ? reach : radius;
+  }
+
+  /// Whether the shape stays on one side of the plane.
   bool passes_by(const TerrainTriangle& t, const Vec32& normal) const {
     const int64_t start = height(t, normal), end = start + dot(displacement, normal).round_shift(30);
+    const int64_t extent = extent_along(start > 0 ? negate(normal) : normal);
     // The error of a normal is less than 2^-28.
-    const int64_t clear = radius + (radius >> 10) + ((length_bound(from(t)) + length_bound(displacement)) >> 26) + 64;
+    const int64_t clear = extent + (radius >> 10) + ((length_bound(from(t)) + length_bound(displacement)) >> 26) + 64;
     return (start > clear && end > clear) || (start < -clear && end < -clear);
   }
 
@@ -77,10 +95,12 @@ struct TerrainSearch {
       return;
     }
     const Motion moved = {placed, ground_motion.displacement, ground_motion.rotation_vector};
-    const Status status = ground_is_a ? time_of_impact(made, moved, convex, motion, found)
-                                      : time_of_impact(convex, motion, made, moved, found);
-    failed = failed || status != Status::ok;
-    if (status != Status::ok || found.outcome == ToiOutcome::clear) return;
+    MovingShapes shapes(ground_is_a ? moved : motion, ground_is_a ? motion : moved);
+    const Fraction until = triangle == k_no_triangle ? k_whole_step : first.time;
+    const bool known =
+        ground_is_a ? shapes.find(made, convex, {}, until, found) : shapes.find(convex, made, {}, until, found);
+    failed = failed || !known;
+    if (!known || found.outcome == ToiOutcome::clear) return;
     if (terrain.one_sided() && from_behind(t, normal, found)) return;
     if (triangle != k_no_triangle && !(found.time < first.time || (found.time == first.time && index < triangle)))
       return;
@@ -92,37 +112,52 @@ struct TerrainSearch {
           {real_difference(near.x, whole.x), real_difference(near.y, whole.y), real_difference(near.z, whole.z)};
   }
 
-  /// Visits the triangles in the bounds of the body's path relative to the terrain, enlarged for the terrain's
+  /// Visits the triangles in the bounds of the shape's path relative to the terrain, enlarged for the terrain's
   /// rotation.
   void walk() {
-    int64_t padding = radius + (radius >> 10);
+    const auto size = [](int64_t along) { return along < 0 ? -along : along; };
+    const auto larger = [](int64_t p, int64_t q) { return p < q ? q : p; };
+    constexpr Real k_far = 32768.0, k_most = 2.0;
+    const auto angle_of = [](const Vec3<Real>& rotation_vector) { return min(length(rotation_vector), k_most); };
+    const Real angle = angle_of(ground_motion.rotation_vector);
+    const Real core = real_from_raw(raw_core_radius(convex));
+    swing = raw_length((angle + angle_of(motion.rotation_vector)) * core);
+    swing += (swing >> 10) + 64;
+    hull = hull_of(convex);
+    int64_t margin = radius >> 10;
     if (turns) {
-      constexpr Real k_far = 32768.0, k_most = 2.0;
-      const Real angle = min(length(ground_motion.rotation_vector), k_most);
       const Real distance = min(real_from_raw(length_bound(centre)), k_far);
       const Real swept = min(length(motion.displacement - ground_motion.displacement), k_far);
-      padding = saturated_sum(padding, saturated_sum(raw_length(angle * distance), raw_length(angle * swept)));
+      margin = saturated_sum(margin, saturated_sum(raw_length(angle * distance), raw_length(angle * swept)));
     }
     constexpr int64_t k_all = int64_t{1} << 61;  // no coordinate of a terrain is more than half of it
-    if (padding >= k_all) {
+    if (margin >= k_all - radius) {
       visit({-k_all, -k_all, -k_all}, {k_all, k_all, k_all});
       return;
     }
     // Search a long path part by part, and stop at the part with the first impact: a box around the whole path would
     // contain many more triangles.
-    const auto size = [](int64_t along) { return along < 0 ? -along : along; };
-    const auto larger = [](int64_t p, int64_t q) { return p < q ? q : p; };
     const int64_t longest = larger(size(displacement.x), larger(size(displacement.y), size(displacement.z)));
     int power = 0;
-    while (!turns && power < k_parts_power_max && longest >> power > 4 * padding) ++power;
-    const int64_t parts = int64_t{1} << power, margin = padding + parts - 1;  // the step is rounded down
+    while (!turns && power < k_parts_power_max && longest >> power > 4 * (radius + margin)) ++power;
+    const int64_t parts = int64_t{1} << power;
+    margin += parts - 1;  // the step is rounded down
     const Vec64 step = {displacement.x >> power, displacement.y >> power, displacement.z >> power};
+    // From the start of a part to the corners of its box.
+    const auto below = [&](int64_t along, const Vec32& axis) {
+      return (along < 0 ? along : 0) - extent_along(negate(axis)) - margin;
+    };
+    const auto above = [&](int64_t along, const Vec32& axis) {
+      return (along > 0 ? along : 0) + extent_along(axis) + margin;
+    };
+    constexpr Vec32 k_x = {k_one, 0, 0}, k_y = {0, k_one, 0}, k_z = {0, 0, k_one};
+    const Vec64 low = {below(step.x, k_x), below(step.y, k_y), below(step.z, k_z)};
+    const Vec64 high = {above(step.x, k_x), above(step.y, k_y), above(step.z, k_z)};
+    Vec64 begins = centre;
     for (int64_t part = 0; part < parts; ++part) {
-      const auto low = [&](int64_t at, int64_t along) { return at + along * part + (along < 0 ? along : 0) - margin; };
-      const auto high = [&](int64_t at, int64_t along) { return at + along * part + (along > 0 ? along : 0) + margin; };
-      visit({low(centre.x, step.x), low(centre.y, step.y), low(centre.z, step.z)},
-            {high(centre.x, step.x), high(centre.y, step.y), high(centre.z, step.z)});
+      visit(add(begins, low), add(begins, high));
       if (triangle != k_no_triangle && first.time.raw <= (k_whole_step.raw >> power) * (part + 1)) return;
+      begins = add(begins, step);
     }
   }
   void visit(const Vec64& low, const Vec64& high) {
@@ -157,6 +192,7 @@ bool terrain_impact(const AssetTable& assets, const TerrainOps& code, const Swep
                           place.terrain,
                           place.centre,
                           rotate_back(place.terrain, displacement),
+                          place.rotation,
                           raw_length(real_from_unit(body.properties.bounding_radius, body.properties.size_exponent))};
   search.walk();
   if (search.failed) return false;

@@ -2,6 +2,7 @@
 
 #include "contact/body_convex.h"
 #include "contact/collide_convex.h"
+#include "contact/part_culling.h"
 #include "contact/terrain_manifolds.h"
 #include "math/root.h"
 
@@ -154,47 +155,6 @@ void collide_with_terrain(const CollisionBody& a, const CollisionBody& b, const 
   collected.finish(contacts);
 }
 
-/// Tests the bounds of B's parts, converted to A's axes, against the bounds of A's parts.
-struct PartCulling {
-  TerrainPlace place;
-  int64_t margin;
-  bool known;
-
-  PartCulling(const CollisionBody& a, const CollisionBody& b, Real distance) {
-    Vec64 raw;
-    known =
-        !is_half_space(a.properties) && !is_half_space(b.properties) &&
-        raw_from_real({distance, Real(0.0), Real(0.0)}, raw) &&
-        place_on_terrain({a.pose.position, a.pose.rotation}, {b.pose.position, b.pose.rotation}, place) == Status::ok;
-    margin = known ? raw.x + (raw.x >> 10) + 1024 : 0;
-  }
-  /// Converts a box, given by its middle and half extents, from B's axes to A's axes. Does nothing if the relative pose
-  /// is not known.
-  void bring(Vec64& middle, Vec64& half) const {
-    if (!known) return;
-    const Vec64 turned = rotate(place.rotation, middle);
-    middle = {saturated_sum(place.centre.x, turned.x), saturated_sum(place.centre.y, turned.y),
-              saturated_sum(place.centre.z, turned.z)};
-    const auto absolute = [](int32_t v) { return v < 0 ? -v : v; };
-    const Matrix32& m = place.rotation;
-    Matrix32 size;
-    for (int k = 0; k < 3; ++k)
-      size.column[k] = {absolute(m.column[k].x), absolute(m.column[k].y), absolute(m.column[k].z)};
-    half = rotate(size, half);
-  }
-  bool meet(const Vec64& middle_a, const Vec64& half_a, const Vec64& middle_b, const Vec64& half_b) const {
-    if (!known) return true;
-    const auto near = [this](int64_t a, int64_t ha, int64_t b, int64_t hb) {
-      // The rotation errs by less than 2^-27.
-      const int64_t room = saturated_sum(saturated_sum(ha, hb), margin + (hb >> 20) + (ha >> 20));
-      return static_cast<int64_t>(magnitude_64(saturated_sum(b, -a))) <=
-             saturated_sum(room, static_cast<int64_t>(magnitude_64(b) >> 24));
-    };
-    return near(middle_a.x, half_a.x, middle_b.x, half_b.x) && near(middle_a.y, half_a.y, middle_b.y, half_b.y) &&
-           near(middle_a.z, half_a.z, middle_b.z, half_b.z);
-  }
-};
-
 }  // namespace
 
 ConvexParts::ConvexParts(const BodyProperties& properties, const AssetTable& assets)
@@ -236,12 +196,6 @@ void ConvexParts::place(uint32_t i, Vec64& middle, Vec64& half) const {
   half = {raw(int64_t{high.x} - low.x), raw(int64_t{high.y} - low.y), raw(int64_t{high.z} - low.z)};
 }
 
-Real ConvexParts::radius(uint32_t i) const {
-  Vec64 middle, half;
-  place(i, middle, half);
-  return whole() ? real_from_raw(half.x) : real_from_raw(length_bound(half));
-}
-
 void collide_compound(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin,
                       const AssetTable& assets, ManifoldReduction reduction, const FeatureTable& features,
                       TerrainContacts& contacts) {
@@ -253,7 +207,8 @@ void collide_compound(const CollisionBody& a, const CollisionBody& b, const Cont
   }
   const ConvexParts parts_a(a.properties, assets), parts_b(b.properties, assets);
   contacts.capped = parts_a.count() == 0 || parts_b.count() == 0;
-  const PartCulling culling(a, b, margin.distance);
+  const PartCulling culling(a.properties, {a.pose.position, a.pose.rotation}, b.properties,
+                            {b.pose.position, b.pose.rotation}, margin.distance, {Real(0.0), Real(0.0), Real(0.0)});
   PartContacts collected(a, b);
   for (uint32_t j = 0; j < parts_b.count(); ++j) {
     Convex convex_b;

@@ -23,8 +23,6 @@ class ConvexParts {
   /// these are the bounds of its bounding ball. For a half-space the half extents are zero, and the caller must not
   /// cull it.
   void place(uint32_t i, Vec64& middle, Vec64& half) const;
-  /// Radius of a ball about the part's middle that contains the part, m.
-  Real radius(uint32_t i) const;
 
  private:
   bool whole() const { return compound_.bytes == nullptr; }

@@ -8,6 +8,8 @@ namespace {
 
 constexpr int32_t k_push = 256;  ///< ulps; an overlap deep enough to have a reliable direction
 
+constexpr int64_t k_rounded = 1024;  ///< ulps; above what gjk() and the supports err by
+
 /// Returns the unit vector v (Q30) times `length`, in the unit of `length`.
 Vec32 scaled(const Vec32& v, int64_t length) {
   return round_shift(Vec64{v.x * length, v.y * length, v.z * length}, 30);
@@ -30,6 +32,50 @@ bool axis_by_pushing(const RestingPair& pair, const Vec32& normal, int32_t dista
   return true;
 }
 
+/// A core of a pair. Of a cylinder an eighth of the lesser of its radius and half length is taken off on all sides.
+class SmallerCore {
+ public:
+  explicit SmallerCore(const Placed& core) : convex_(*core.convex), placed_(core) {
+    placed_.convex = &convex_;
+    if (convex_.type != ShapeType::cylinder) return;
+    int32_t(&size)[3] = convex_.size;
+    const int32_t less = (size[0] < size[1] ? size[0] : size[1]) >> 3;
+    size[0] -= less;
+    size[1] -= less;
+    less_ = placed_.shift > 31 ? 0 : less >> placed_.shift;
+  }
+  SmallerCore(const SmallerCore&) = delete;
+  SmallerCore& operator=(const SmallerCore&) = delete;
+
+  const Placed& placed() const { return placed_; }
+  int32_t less() const { return less_; }  ///< ulps of the block
+
+ private:
+  Convex convex_;
+  Placed placed_;
+  int32_t less_ = 0;
+};
+
+/// Finds the axis of two cores that overlap by the direction in which they are apart when cylinders are made smaller,
+/// because penetration() needs many steps for curved surfaces. Returns false, with `axis` unchanged, if there is no
+/// cylinder, if the overlap is too deep, or if a rim touches: there the smaller cylinder has another direction.
+bool axis_of_smaller_cylinders(const RestingPair& pair, ContactAxis& axis) {
+  const auto is_cylinder = [](const Placed& core) { return core.convex->type == ShapeType::cylinder; };
+  if (pair.planar() || !(is_cylinder(pair.a) || is_cylinder(pair.b))) return false;
+  const SmallerCore a(pair.a), b(pair.b);
+  Simplex simplex;
+  const GjkResult found = gjk(a.placed(), b.placed(), pair.offset, simplex, {});
+  if (found.outcome != GjkOutcome::apart) return false;
+  const Vec32& normal = found.normal;
+  const Vec32 from = support(pair.a, normal).point, to = support(pair.b, negate(normal)).point;
+  const int64_t separation = dot(normal, subtract(add(pair.offset, to), from)) >> 30;
+  if (separation < found.lower - a.less() - b.less() - k_rounded) return false;
+  const NearestPoints nearest = nearest_points(a.placed(), b.placed(), simplex);
+  axis = {normal, separation, add(nearest.on_a, scaled(normal, a.less())),
+          subtract(nearest.on_b, scaled(normal, b.less())), false};
+  return true;
+}
+
 }  // namespace
 
 bool find_contact_axis(const RestingPair& pair, int32_t above, DistanceCache* cache, ContactAxis& axis) {
@@ -38,6 +84,7 @@ bool find_contact_axis(const RestingPair& pair, int32_t above, DistanceCache* ca
   const GjkResult found = gjk_on(pair.a, pair.b, pair.offset, simplex, {-1, above});
   if (cache != nullptr) save_cache(simplex, *cache);
   if (found.outcome == GjkOutcome::overlap) {
+    if (axis_of_smaller_cylinders(pair, axis)) return true;
     axis = axis_of(penetration(pair.a, pair.b, pair.offset, simplex));
     return true;
   }

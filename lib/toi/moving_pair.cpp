@@ -13,10 +13,9 @@ constexpr int64_t k_raw_rotation_max = int64_t{1} << (k_metre_bits + 16);  ///< 
 /// docs/design/time_of_impact.md, "The rounding budget".
 constexpr int32_t k_budget = 32;
 
-/// Sets the rotation of a body. A body whose core is a point at its centre counts as not rotating.
 Status set_turning(const Convex& convex, const Motion& motion, Turning& turning) {
   if (const Status status = turning_of(motion, turning); status != Status::ok) return status;
-  if (convex.core_radius == 0 && convex.type != ShapeType::half_space) turning = still(turning.start);
+  turning = rotation_of(convex, turning);
   return Status::ok;
 }
 
@@ -151,6 +150,10 @@ Status turning_of(const Motion& motion, Turning& turning) {
   constexpr int64_t k_inverse_two_pi = 2935890503282001226;  // Q64
   turning.rate = Int128::product(turning.angle, k_inverse_two_pi).round_shift(64);
   return Status::ok;
+}
+
+Turning rotation_of(const Convex& convex, const Turning& turning) {
+  return convex.core_radius == 0 && convex.type != ShapeType::half_space ? still(turning.start) : turning;
 }
 
 Turning still(const Quat32& rotation) { return {rotation, matrix_from(rotation), false, {0, 0, 0}, 0, {0, 0, 0}, 0}; }

@@ -51,6 +51,9 @@ Turning still(const Quat32& rotation);
 /// The rotation of a motion. Errors: not_normalised; out_of_range for a rotation of more than 2^16 rad. After an error
 /// `turning` may be partly written.
 Status turning_of(const Motion& motion, Turning& turning);
+/// The rotation of a shape of a body with this rotation: a shape whose core is a point at the body's centre counts as
+/// not rotating.
+Turning rotation_of(const Convex& convex, const Turning& turning);
 
 /// The placement of the bodies of a pair at a time.
 struct Frames {

@@ -13,18 +13,50 @@ namespace {
 struct PairLengths {
   Real at_rest;           ///< contact margin of a pair that does not move
   Real margin;            ///< speculative_distance()
+  Real reach;             ///< as `margin`, if bodies that move together count as slow
   Real recycle_distance;  ///< largest relative motion for which its contact points are recycled
 
   /// Whether a point that was beyond `margin` when the contact points were computed is still too far away to touch in
   /// this tick.
-  bool is_slow() const { return margin + recycle_distance <= scale_by_power(at_rest, 1); }
+  bool is_slow() const { return reach + recycle_distance <= scale_by_power(at_rest, 1); }
 };
 
-PairLengths lengths_of(const StepSettings& settings, const BodyWork& a, const BodyWork& b) {
+/// The speed at which the surface of a body moves in the axes of another one, to first order, m/s: at least the speed
+/// at which both approach. Bodies that move together have none. Returns false if a value is out of range.
+bool speed_in_frame(const StepBodies& bodies, uint32_t slot, uint32_t frame, Real& speed) {
+  constexpr int k_power_max = 8;  // 2^8 m, rad/s: the products are in the range of a Real
+  const auto angular_velocity = [&](uint32_t of, Vec3<Real>& found) {
+    const int power = k_angular_velocity_power - bodies.properties[of].size_exponent;
+    const Vec3<Real>& scaled = bodies.work[of].angular_velocity;
+    if (exponent_above(greatest(scaled)) + power > k_power_max) return false;
+    found = scale_by_power(scaled, power);
+    return true;
+  };
+  Vec3<Real> own, of_frame;
+  if (!angular_velocity(slot, own) || !angular_velocity(frame, of_frame)) return false;
+  const Vec3<Real> offset = real_difference(bodies.poses[slot].position, bodies.poses[frame].position);
+  if (exponent_above(greatest(offset)) > k_power_max) return false;
+  const BodyProperties& properties = bodies.properties[slot];
+  const Real radius = real_from_unit(properties.bounding_radius, properties.size_exponent);
+  if (exponent_above(radius) > k_power_max - 2) return false;
+  const Vec3<Real> velocity = bodies.motions[slot].linear_velocity - bodies.motions[frame].linear_velocity;
+  speed = absolute_sum(velocity - cross(of_frame, offset)) + absolute_sum(own - of_frame) * radius;
+  return true;
+}
+
+PairLengths lengths_of(const StepSettings& settings, const StepBodies& bodies, uint32_t slot_a, uint32_t slot_b) {
+  const BodyWork &a = bodies.work[slot_a], &b = bodies.work[slot_b];
   const Real extent = min(a.extent, b.extent);
   const bool jointed = a.joint_body != k_no_link || b.joint_body != k_no_link;
-  return {extent * settings.contact_margin, speculative_distance(settings, extent, a.speed + b.speed, jointed),
-          extent * settings.contact_recycle_distance};
+  const Real margin = speculative_distance(settings, extent, a.speed + b.speed, jointed);
+  PairLengths lengths = {extent * settings.contact_margin, margin, margin, extent * settings.contact_recycle_distance};
+  // Impacts do not stop jointed bodies: their contacts must foresee all that the solver can do.
+  if (jointed || lengths.is_slow() || a.speed == k_zero || b.speed == k_zero) return lengths;
+  const bool a_is_smaller = a.extent < b.extent;
+  Real speed;
+  if (speed_in_frame(bodies, a_is_smaller ? slot_a : slot_b, a_is_smaller ? slot_b : slot_a, speed))
+    lengths.reach = min(margin, speculative_distance(settings, extent, speed, false));
+  return lengths;
 }
 
 ContactMargins margins_of(const StepSettings& settings, const PairLengths& lengths) {
@@ -43,7 +75,7 @@ struct ContactBefore {
 void collide_pair(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b, const StepBodies& bodies,
                   const ContactBefore& before, ContactGeometry& geometry, ManifoldState* manifold, bool& recycled) {
   const CollisionBody body_a = bodies.collider(slot_a), body_b = bodies.collider(slot_b);
-  const PairLengths lengths = lengths_of(settings, bodies.work[slot_a], bodies.work[slot_b]);
+  const PairLengths lengths = lengths_of(settings, bodies, slot_a, slot_b);
   recycled = before.manifold != nullptr && manifold != nullptr && lengths.is_slow() &&
              recycle_manifold(body_a, body_b, *before.manifold, before.contact->feature, before.contact->point_count,
                               lengths.recycle_distance, lengths.margin, geometry, *manifold);
@@ -56,7 +88,7 @@ void collide_pair(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b
 __attribute__((noinline)) bool parts_touch(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b,
                                            const StepBodies& bodies) {
   TerrainContacts contacts;
-  const PairLengths lengths = lengths_of(settings, bodies.work[slot_a], bodies.work[slot_b]);
+  const PairLengths lengths = lengths_of(settings, bodies, slot_a, slot_b);
   collide_parts(bodies.collider(slot_a), bodies.collider(slot_b), margins_of(settings, lengths), bodies.assets,
                 settings.reduction, bodies.features, contacts);
   return contacts.count != 0;
@@ -252,7 +284,7 @@ struct Collider {
 
   __attribute__((noinline)) void collide_all_parts(uint64_t key) {
     const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
-    const PairLengths lengths = lengths_of(settings, bodies.work[slot_a], bodies.work[slot_b]);
+    const PairLengths lengths = lengths_of(settings, bodies, slot_a, slot_b);
     const PairBefore pair = find_pair(key);
     TerrainContacts found;
     ManifoldState manifold[k_terrain_manifolds_max];
@@ -271,6 +303,7 @@ struct Collider {
       }
       for (uint32_t i = 0; !kept && i < found.count; ++i) manifold[i] = {};
     }
+    if (found.count == 0 && (found.seam || found.capped)) mark_sliver(slot_a, slot_b);
     count.capped += found.capped ? 1 : 0;
     count.parts_dropped += found.dropped;
     if (found.dropped != 0) {

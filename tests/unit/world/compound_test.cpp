@@ -346,6 +346,25 @@ DETENT_TEST(compounds, tell_which_children_touch_a_mesh) {
 }
 
 /// The normal of the plane rotates through the directions of several keys; the contact stays the same.
+/// A table slides without friction, so far in a tick that its shrunken parts could pass into the floor.
+DETENT_TEST(compounds, that_their_contacts_keep_apart_are_not_searched) {
+  CompoundLab lab(detent_compounds::table());
+  lab.add_floor(20);
+  BodyDef def = lab.compound_def(0, 0, 0);
+  def.linear_velocity = reals(1, 0, 0);
+  def.material.friction = real(0);
+  const BodyId id = lab.add(def);
+  uint32_t tests = 0, kept_apart = 0;
+  for (int tick = 0; tick < 60; ++tick) {
+    const StepReport report = lab.run(1);
+    tests += report.ccd.tests;
+    kept_apart += report.ccd.kept_apart;
+  }
+  EXPECT_EQ(tests, 0u);
+  EXPECT_GT(kept_apart, 50u);
+  EXPECT_NEAR(lab.motion(id).position[0], lab.info.origin[0] + 1, 0.01);
+}
+
 DETENT_TEST(compounds, that_tilt_keep_their_contacts) {
   CompoundLab lab(detent_compounds::letter_l());
   BodyDef floor = lab.compound_def(0, 0, 0);

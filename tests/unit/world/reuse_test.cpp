@@ -49,6 +49,34 @@ DETENT_TEST(reuse, a_standing_tower_finds_no_contact_anew_and_stands_as_well) {
   }
 }
 
+/// Their speeds are far above what they would be allowed if they approached.
+DETENT_TEST(reuse, bodies_that_a_turntable_or_a_carrier_takes_along_are_slow_to_each_other) {
+  for (const bool turns : {false, true}) {
+    Lab lab({8, 32, 0});
+    BodyDef carrier = box_def(4, 0.5, 4, -0.5, BodyType::kinematic);
+    if (turns)
+      carrier.angular_velocity = reals(0, 1, 0);
+    else
+      carrier.linear_velocity = reals(5, 0, 3);
+    lab.add(carrier);
+    for (int i = 0; i < 4; ++i) {
+      BodyDef def = box_def(0.25, 0.25, 0.25, 0.25);
+      def.position = position(i % 2 == 0 ? 1 : -1, 0.25, i < 2 ? 1 : -1);
+      def.linear_velocity = turns ? reals(i < 2 ? 1 : -1, 0, i % 2 == 0 ? -1 : 1) : carrier.linear_velocity;
+      def.angular_velocity = carrier.angular_velocity;
+      lab.add(def);
+    }
+    uint32_t recycled = 0, contacts = 0;
+    for (int i = 0; i < 120; ++i) {
+      const StepReport report = lab.run(1);
+      recycled += report.contacts.recycled;
+      contacts += report.contacts.count;
+    }
+    EXPECT_GT(contacts, 400u) << turns;
+    EXPECT_GT(recycled * 4, contacts * 3) << turns;
+  }
+}
+
 DETENT_TEST(reuse, a_world_restored_amid_it_goes_on_with_the_same_bits) {
   Lab lab = make_tower(5), restored = make_tower(5), loaded = make_tower(5);
   for (int round = 0; round < 5; ++round) {

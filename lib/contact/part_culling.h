@@ -1,0 +1,32 @@
+#pragma once
+#include <detent/detail/state.h>
+
+#include "contact/terrain_pair.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// Finds out which parts of two bodies cannot come near each other, by the bounds of the parts in A's axes.
+class PartCulling {
+ public:
+  /// `displacement`: how far B moves relative to A, m, world axes. Parts that stay farther apart than `distance`, m, on
+  /// the way are culled; what rotations add to the motion must be part of `distance`. Nothing is culled if a body is a
+  /// half-space, or if a value is out of range.
+  PartCulling(const BodyProperties& a, const Pose& pose_a, const BodyProperties& b, const Pose& pose_b, Real distance,
+              const Vec3<Real>& displacement);
+
+  /// Converts a box, given by its middle and half extents, 2^-46 m, from B's axes to A's axes, and extends it by the
+  /// displacement.
+  void bring(Vec64& middle, Vec64& half) const;
+  /// Whether parts with these boxes may come near each other. `middle_b` and `half_b`: as bring() returns them.
+  bool meet(const Vec64& middle_a, const Vec64& half_a, const Vec64& middle_b, const Vec64& half_b) const;
+
+ private:
+  TerrainPlace place_;
+  int64_t margin_ = 0;                   ///< 2^-46 m
+  Vec64 half_displacement_ = {0, 0, 0};  ///< half of the displacement, in A's axes, 2^-46 m
+  bool known_;
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
