@@ -7,13 +7,22 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
+#if DETENT_TASKS
+/// With fewer entries than this after the first search, all are visited for each event.
+constexpr uint32_t k_many_entries = 64;
+#endif
+
 /// The pair with the earliest event, ties by the lower key; null if there is none.
-ImpactPair* next(const ImpactStage& stage) {
+ImpactPair* next(ImpactStage& stage) {
+#if DETENT_TASKS
+  if (stage.heads.is_made())
+    return stage.heads.earliest(stage.impacts.first(stage.impact_count),
+                                [](const ImpactPair& pair) { return pair.next != k_next_none; });
+#endif
   ImpactPair* best = nullptr;
-  for (uint32_t i = 0; i < stage.impact_count; ++i) {
-    ImpactPair& pair = stage.impacts[i];
+  for (ImpactPair& pair : stage.impacts.first(stage.impact_count)) {
     if (pair.next == k_next_none) continue;
-    if (best == nullptr || pair.time < best->time || (pair.time == best->time && pair.key < best->key)) best = &pair;
+    if (best == nullptr || is_earlier(pair, *best)) best = &pair;
   }
   return best;
 }
@@ -42,6 +51,7 @@ void go_on(ImpactStage& stage, ImpactPair& pair) {
     return;
   }
   pair.next = k_next_none;
+  stage.touch(pair);
   pair.last = time;
   stage.report.undecided += undecided ? 1 : 0;
   for (const uint32_t slot : slots) {
@@ -81,6 +91,9 @@ ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& 
   stage.start_sweeps();
   stage.find_first();
   stage.test_all_changed(Fraction(0.0));
+#if DETENT_TASKS
+  if (stage.impact_count >= k_many_entries) stage.heads.make(impacts.count, stage.spare);
+#endif
   while (ImpactPair* pair = next(stage)) go_on(stage, *pair);
   stage.finish_momentum();
 #if DETENT_SPARSE

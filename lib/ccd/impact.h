@@ -100,6 +100,9 @@ struct ImpactBodies {
   Span<uint32_t> first_impact;
   FilterRuleTable filter_rules = {};
   SweepListener listener = {};
+#if DETENT_TASKS
+  Span<uint64_t> spare = {};  ///< work space; less of it costs time and changes no result
+#endif
 };
 
 /// The pairs and contacts that earlier stages found.

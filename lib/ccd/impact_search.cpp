@@ -61,17 +61,25 @@ bool may_collide(const ImpactStage& stage, uint32_t a, uint32_t b) {
 }
 
 /// Adds all bodies whose bounds overlap those of `slot` to the candidates.
-__attribute__((noinline)) void find_near(const ImpactStage& stage, uint32_t slot) {
+__attribute__((noinline)) void find_near(ImpactStage& stage, uint32_t slot) {
   const Bounds& box = stage.bodies.bounds[slot];
-  stage.bodies.resting.for_each_near(box, [&](uint32_t other) { stage.bodies.candidates.set(other); });
+  const auto add = [&](uint32_t other) { stage.bodies.candidates.set(other); };
+  stage.bodies.resting.for_each_near(box, add);
+#if DETENT_TASKS
+  stage.moving.prepare(stage.bodies.active, stage.bodies.bounds, stage.spare);
+  if (stage.moving.is_made()) {
+    stage.moving.tree(stage.bodies.bounds).for_each_near(box, add);
+    return;
+  }
+#endif
   stage.bodies.active.for_each([&](uint32_t other) {
-    if (overlap(box, stage.bodies.bounds[other])) stage.bodies.candidates.set(other);
+    if (overlap(box, stage.bodies.bounds[other])) add(other);
   });
 }
 
 /// Visits all other bodies that may touch `slot` and whose bounds overlap its bounds, in the order of their slots.
 template <class Visit>
-void for_each_near(const ImpactStage& stage, uint32_t slot, const Visit& visit) {
+void for_each_near(ImpactStage& stage, uint32_t slot, const Visit& visit) {
   find_near(stage, slot);
   stage.bodies.candidates.for_each([&](uint32_t other) {
     stage.bodies.candidates.clear(other);
@@ -162,6 +170,7 @@ ImpactPair* entry_of(ImpactStage& stage, uint64_t key, ImpactPair* entry) {
   entry = &stage.impacts[stage.impact_count++];
   *entry = {};
   entry->key = key;
+  stage.touch(*entry);
   const uint32_t slots[2] = {pair_low(key), pair_high(key)};
   for (int i = 0; i < 2; ++i) {
     if (!stage.dynamic(slots[i])) continue;
@@ -334,7 +343,10 @@ void ImpactStage::test(uint64_t key, Fraction time, Real shrink_depth, ImpactPai
   Meeting meeting;
   const TimeOfImpact& impact = meeting.impact;
   const Vec3<Unit> axis = known_axis(*this, key, entry);
-  if (entry != nullptr) entry->next = k_next_none;
+  if (entry != nullptr) {
+    entry->next = k_next_none;
+    touch(*entry);
+  }
   const bool asked = search.find({shrink_depth, extent_of(key), true, resolved}, axis, meeting);
 #if DETENT_TASKS
   if (found != nullptr && (!asked || meeting.left || meeting.climbed || impact.outcome != ToiOutcome::clear)) {
@@ -411,9 +423,9 @@ bool ImpactStage::find_first_shared() { return false; }
 
 void ImpactStage::find_first() {
   if (settings.team == nullptr || !find_first_shared()) test_all_at_start(*this, known.pairs);
-  uint32_t moving = 0;
+  uint32_t moving_count = 0;
   bodies.active.for_each([&](uint32_t a) {
-    ++moving;
+    ++moving_count;
     if ((bodies.sweeps[a].marks & k_mark_left_bounds) == 0) return;
     for_each_near(*this, a, [&](uint32_t b) {
       if (b < a && (bodies.sweeps[b].marks & k_mark_left_bounds) != 0) return;
@@ -421,7 +433,8 @@ void ImpactStage::find_first() {
       if (!has_pair(known.pairs, key)) test_at_start(*this, key, find_contacts(known.contacts, key));
     });
   });
-  work_left = k_impact_work_min + k_impact_work_times * (moving + report.tests + report.skipped + report.kept_apart);
+  work_left =
+      k_impact_work_min + k_impact_work_times * (moving_count + report.tests + report.skipped + report.kept_apart);
 #if DETENT_SPARSE
   if (probe != nullptr) probe->use.budget = work_left - k_impact_work_min;
 #endif

@@ -1,7 +1,9 @@
 #pragma once
 #include "broad_phase/pair_key.h"
+#include "ccd/event_heads.h"
 #include "ccd/impact.h"
 #include "ccd/impact_pair.h"
+#include "ccd/moving_tree.h"
 #include "motion/angular_velocity.h"
 #include "shape/shape_properties.h"
 
@@ -61,6 +63,9 @@ struct ImpactStage {
   Real first_approach = 0.0;   ///< closing speed of the impact that is being resolved, m/s
   ImpactReport report = {};
 #if DETENT_TASKS
+  SpareMemory spare = {bodies.spare};
+  MovingTree moving = {};
+  EventHeads heads = {};
   FoundPairs* found = nullptr;  ///< not null: test() only lists the pair, if its search finds anything
 #else
   static constexpr FoundPairs* found = nullptr;
@@ -82,6 +87,12 @@ struct ImpactStage {
       at = pair.more[pair_high(pair.key) == slot ? 1 : 0];
       visit(pair);
     }
+  }
+  /// To be called when the event of an entry in `impacts` has changed.
+  void touch([[maybe_unused]] const ImpactPair& pair) {
+#if DETENT_TASKS
+    heads.touch(static_cast<uint32_t>(&pair - impacts.data));
+#endif
   }
   /// The smaller body's smallest diameter, m.
   Real extent_of(uint64_t key) const {

@@ -38,11 +38,17 @@ Bounds bounds_over(const BodyProperties& properties, const BodyPose& pose, const
 }
 
 /// Computes the bounds of the body's sweep from now on, and records the sweep in the probe.
-void begin_sweep(const ImpactStage& stage, uint32_t slot) {
+void begin_sweep(ImpactStage& stage, uint32_t slot) {
   const BodySweep& sweep = stage.bodies.sweeps[slot];
   const Sweep rest = rest_of(sweep, sweep.from);
   const BodyPose& pose = stage.bodies.poses[slot];
+#if DETENT_TASKS
+  stage.moving.remove(slot, stage.bodies.bounds);
+#endif
   stage.bodies.bounds[slot] = bounds_over(stage.bodies.properties[slot], pose, rest);
+#if DETENT_TASKS
+  stage.moving.insert(slot, stage.bodies.bounds);
+#endif
   if (stage.probe == nullptr) return;
 #if DETENT_SPARSE
   if (stage.probe->reach.count != 0) include(stage.bodies.bounds[slot], stage.probe->reach[slot]);
@@ -65,9 +71,12 @@ void end_segment(const BodyProperties& properties, const BodySweep& sweep, Fract
 }
 
 /// Adds the body to the moving bodies and removes it from the tree of resting ones.
-void leave_rest(const ImpactStage& stage, uint32_t slot) {
+void leave_rest(ImpactStage& stage, uint32_t slot) {
   stage.bodies.active.set(slot);
   if (stage.bodies.resting.has(slot)) stage.bodies.resting.remove(slot);
+#if DETENT_TASKS
+  stage.moving.insert(slot, stage.bodies.bounds);
+#endif
 }
 
 /// The rotation at the end of the tick, with the current sweep.
@@ -134,7 +143,10 @@ void ImpactStage::change(uint32_t slot) {
   if ((sweep.marks & k_mark_changed) == 0) ++changed_count;
   changed_first = slot < changed_first ? slot : changed_first;
   sweep.marks |= k_mark_changed;
-  for_each_impact(slot, [](ImpactPair& pair) { pair.next = k_next_none; });
+  for_each_impact(slot, [this](ImpactPair& pair) {
+    pair.next = k_next_none;
+    touch(pair);
+  });
 }
 
 void ImpactStage::stop(uint32_t slot, Fraction time) {
