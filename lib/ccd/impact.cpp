@@ -58,7 +58,7 @@ void go_on(ImpactStage& stage, ImpactPair& pair) {
     if (!stage.dynamic(slot)) continue;
     stage.move_to(slot, time);
     stage.report.clamped +=
-        clamp_rotation(stage.bodies.properties[slot], stage.settings.tick_time, stage.bodies.sweeps[slot]);
+        clamp_rotation(stage.bodies.properties[slot], stage.settings.tick_time, stage.sweep_of(slot));
   }
   const BodyPose pose_a = pose_at(stage.body(slots[0]), time), pose_b = pose_at(stage.body(slots[1]), time);
   stage.first_approach = k_zero;
@@ -73,14 +73,49 @@ void go_on(ImpactStage& stage, ImpactPair& pair) {
   if (pair.impacts == 0) pair.impacts = 1;
   for (const uint32_t slot : slots) {
     if (!stage.dynamic(slot)) continue;
-    BodySweep& sweep = stage.bodies.sweeps[slot];
+    BodySweep& sweep = stage.sweep_of(slot);
     if (++sweep.impacts >= impacts_max) stage.stop(slot, time);
     if ((sweep.marks & k_mark_changed) == 0) stage.change(slot);
   }
   stage.test_all_changed(time);
 }
 
+#if DETENT_TASKS
+/// Number of entries of an impact list that makes it worth the while to process them in groups.
+constexpr uint32_t k_impacts_shared = 64;
+
+/// Processes all events in the order that pays.
+void process_all(ImpactStage& stage) {
+  const ImpactProbe* const probe = stage.probe;
+  ImpactOrder order = probe == nullptr ? ImpactOrder::automatic : probe->order;
+  if (order == ImpactOrder::automatic) {
+    const Team* const team = stage.settings.team;
+    const bool pays = team != nullptr && stage.impact_count > team->few(k_impacts_shared);
+    order = pays ? ImpactOrder::optimistic : ImpactOrder::global;
+  }
+  // These are called, or written to, in the order of the events.
+  if (stage.bodies.listener.ended != nullptr || (probe != nullptr && probe->segments.count != 0))
+    order = ImpactOrder::global;
+  WarpCount none;
+  if (order == ImpactOrder::global || !process_in_groups(stage, order, probe == nullptr ? none : stage.probe->warp))
+    stage.process_events();
+}
+#endif
+
 }  // namespace
+
+void ImpactStage::process_events() {
+#if DETENT_TASKS
+  if (impact_count >= k_many_entries) heads.make(impacts.count, warp == nullptr ? spare : warp->spare);
+#endif
+  while (ImpactPair* pair = next(*this)) {
+#if DETENT_TASKS
+    if (warp != nullptr) warp->begin_event(*pair);
+    if (gives_up()) return;
+#endif
+    go_on(*this, *pair);
+  }
+}
 
 ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& assets, const FeatureTable& features,
                                 const ImpactPairs& pairs, const ImpactBodies& bodies, Span<ImpactPair> impacts,
@@ -92,9 +127,10 @@ ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& 
   stage.find_first();
   stage.test_all_changed(Fraction(0.0));
 #if DETENT_TASKS
-  if (stage.impact_count >= k_many_entries) stage.heads.make(impacts.count, stage.spare);
+  process_all(stage);
+#else
+  stage.process_events();
 #endif
-  while (ImpactPair* pair = next(stage)) go_on(stage, *pair);
   stage.finish_momentum();
 #if DETENT_SPARSE
   if (probe != nullptr) {

@@ -13,13 +13,18 @@ class MovingTree {
   bool is_made() const { return parents_.count != 0; }
   /// To be called before each search. Makes the tree when the searches so far have cost as much as that.
   void prepare(BitSet active, Span<const Bounds> bounds, SpareMemory& spare) {
-    if (is_made() || ++searches_ != k_searches_max) return;
+    if (++searches_ == k_searches_max) make(active, bounds, spare);
+  }
+  /// Returns false if there is too little memory.
+  bool make(BitSet active, Span<const Bounds> bounds, SpareMemory& spare) {
+    if (is_made()) return true;
     parents_ = spare.take<uint32_t>(bounds.count);
     nodes_ = spare.take<TreeNode>(bounds.count);
     if (nodes_.count == 0) parents_ = {};
-    if (!is_made()) return;
+    if (!is_made()) return false;
     tree(bounds).make_empty();
     active.for_each([&](uint32_t slot) { insert(slot, bounds); });
+    return true;
   }
   RestingTree tree(Span<const Bounds> bounds) { return {root_, nodes_, parents_, bounds}; }
   void insert(uint32_t slot, Span<const Bounds> bounds) {
