@@ -197,11 +197,12 @@ class TimeWarp {
     const uint32_t a = leader_of(pair_low(key)), b = leader_of(pair_high(key));
     leaders_[a > b ? a : b] = a > b ? b : a;
   }
+  uint32_t asleep(uint32_t slot) const { return stage_.bodies.activities[slot].asleep; }
   /// The leader of the bodies of an entry.
   uint32_t leader_of(const ImpactPair& entry) {
     return leader_of(stage_.dynamic(pair_low(entry.key)) ? pair_low(entry.key) : pair_high(entry.key));
   }
-  /// Whether there are several groups, and none has most of the entries.
+  /// Returns false if the global order is better, or if a group would have to wake a body.
   bool make_groups(bool is_conservative) {
     const uint32_t slots = stage_.bodies.properties.count, entries = stage_.impact_count;
     if (!take(leaders_, slots) || !take(groups_of_, slots) || !take(next_start_, entries)) return false;
@@ -210,6 +211,9 @@ class TimeWarp {
       groups_of_[slot] = WarpGroup::k_none;
     }
     const Span<const ImpactPair> all = stage_.impacts.first(entries);
+    for (const ImpactPair& entry : all) {
+      if ((asleep(pair_low(entry.key)) | asleep(pair_high(entry.key))) != 0) return false;
+    }
     for (const ImpactPair& entry : all) unite(entry.key);
     for (uint32_t i = 0; is_conservative && i < stage_.known.pairs.count; ++i) unite(stage_.known.pairs[i]);
     uint32_t group_count = 0;
@@ -226,9 +230,14 @@ class TimeWarp {
       next_start_[i] = WarpGroup::k_none;
       append(groups_[groups_of_[leader_of(all[i])]], i, i, 1);
     }
-    uint32_t largest = 0;
-    for (const WarpGroup& group : groups_) largest = group.start_count > largest ? group.start_count : largest;
-    return group_count > 1 && (largest <= entries / 2 || stage_.settings.team == nullptr);
+    for (const WarpGroup& group : groups_) {
+      if (is_too_large(group)) return false;
+    }
+    return group_count > 1 && take(parts_, k_warp_parts_max);
+  }
+  /// Whether the other threads would mostly wait for this group.
+  bool is_too_large(const WarpGroup& group) const {
+    return stage_.settings.team != nullptr && group.start_count > stage_.impact_count / 4 * 3;
   }
   void append(WarpGroup& group, uint32_t first, uint32_t last, uint32_t count) {
     (group.start_count == 0 ? group.first_start : next_start_[group.last_start]) = first;
@@ -237,16 +246,10 @@ class TimeWarp {
   }
 
   bool make_part(WarpPart& part) {
-    Span<uint32_t> own, candidates;
-    if (!take(part.places, stage_.bodies.properties.count) || !take(own, stage_.bodies.active.words.count) ||
-        !take(candidates, stage_.bodies.active.words.count))
-      return false;
-    for (uint32_t& place : part.places) place = 0;
-    for (uint32_t& word : own) word = 0;
-    for (uint32_t& word : candidates) word = 0;
-    part.own = {own};
-    part.candidates = {candidates};
-    return true;
+    const uint32_t words = stage_.bodies.active.words.count;
+    part = {};
+    return take(part.places, stage_.bodies.properties.count) && take(part.own.words, words) &&
+           take(part.candidates.words, words);
   }
   /// Runs the groups in `to_run_`. Each part runs every `parts`th of them, so that the parts are about equal.
   void run_groups() {
@@ -263,6 +266,7 @@ class TimeWarp {
     }
     share(stage_.settings.team, parts, 1, [&](uint32_t first, uint32_t last) {
       for (uint32_t part = first; part < last; ++part) {
+        parts_[part].clear_once();
         for (uint32_t i = part; i < to_run_.count; i += parts) run_group(groups_[to_run_[i]], parts_[part]);
       }
     });
@@ -394,6 +398,7 @@ class TimeWarp {
         ++count_.rollbacks;
       }
       append(leader, group.first_start, group.last_start, group.start_count);
+      if (is_too_large(leader)) fail();
       group.start_count = group.body_count = group.output_count = 0;
       ++count_.rollbacks;
     }
@@ -465,7 +470,7 @@ class TimeWarp {
   Span<WarpRange> ranges_;
   uint32_t range_room_ = 0;
   ImpactReport correction_ = {};
-  WarpPart parts_[k_warp_parts_max];
+  Span<WarpPart> parts_;
   uint32_t part_count_ = 0;
 };
 

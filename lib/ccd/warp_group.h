@@ -24,13 +24,11 @@ struct WarpBody : WarpSweep {
   uint32_t first_test, last_test;
   Bounds reach;             ///< contains the bounds of the sweeps that were tested; k_nowhere if there are none
   uint32_t changed;         ///< 0: the group has not changed the body
-  uint32_t moved;           ///< 1: the group has moved the body since the last test
-  uint32_t moved_untested;  ///< 1: after a move another event came before the next test
-  Fraction change_time;     ///< of the first change
+  uint32_t moved;           ///< 1: the group has moved the body since its last test
+  uint32_t moved_untested;  ///< 1: the body had states with which no test was recorded
   Fraction move_time;       ///< of the last move
 
   void move(Fraction time) {
-    if (changed == 0) change_time = time;
     if (moved != 0 && time > move_time) moved_untested = 1;
     changed = moved = 1;
     move_time = time;
@@ -74,6 +72,15 @@ struct WarpPart {
   Span<uint32_t> places;  ///< by slot: index + 1 of the group's copy, or 0
   BitSet own;             ///< slots with a copy
   BitSet candidates;      ///< as ImpactBodies::candidates
+  uint32_t is_clear = 0;
+
+  void clear_once() {
+    if (is_clear != 0) return;
+    for (uint32_t& place : places) place = 0;
+    for (uint32_t& word : own.words) word = 0;
+    for (uint32_t& word : candidates.words) word = 0;
+    is_clear = 1;
+  }
 };
 
 /// A body at the start, when no group has changed it.
