@@ -58,11 +58,11 @@ enum class ImpactOrder : uint8_t {
 
 /// What Time Warp did (time_warp.cpp).
 struct WarpCount {
-  uint32_t ticks = 0;         ///< ticks that were begun in groups
+  uint32_t ticks = 0;         ///< ticks for which groups were tried
   uint32_t speculations = 0;  ///< runs of groups
   uint32_t rollbacks = 0;     ///< runs whose result was discarded
   uint32_t rounds = 0;
-  uint32_t returns = 0;  ///< ticks that were begun in groups and then processed in the global order
+  uint32_t returns = 0;  ///< of these ticks: those that were processed in the global order after all
 };
 #endif
 

@@ -79,7 +79,7 @@ __attribute__((noinline)) void find_near(ImpactStage& stage, uint32_t slot) {
 }
 
 /// Whether the bounds of two bodies overlap that may touch.
-bool is_near(const ImpactStage& stage, uint32_t slot, uint32_t other) {
+bool are_near(const ImpactStage& stage, uint32_t slot, uint32_t other) {
   return overlap(stage.bounds_of(slot), stage.bounds_of(other)) && may_collide(stage, slot, other);
 }
 
@@ -90,7 +90,7 @@ void for_each_near(ImpactStage& stage, uint32_t slot, const Visit& visit) {
   stage.candidates().for_each([&](uint32_t other) {
     stage.candidates().clear(other);
     // An earlier visit may have stopped either body.
-    if (other != slot && is_near(stage, slot, other)) visit(other);
+    if (other != slot && are_near(stage, slot, other)) visit(other);
   });
 }
 
@@ -318,7 +318,7 @@ void ImpactStage::test_near(uint32_t slot, uint32_t other, Fraction time) {
 
 #if DETENT_TASKS
 void ImpactStage::test_if_near(uint32_t slot, uint32_t other, Fraction time) {
-  if (is_near(*this, slot, other)) test_near(slot, other, time);
+  if (are_near(*this, slot, other)) test_near(slot, other, time);
 }
 #endif
 

@@ -169,15 +169,12 @@ class TimeWarp {
 
   bool run(bool is_conservative) {
     if (!make_groups(is_conservative)) return false;
-    ++count_.ticks;
     uint32_t round = 0;
     do {
       if (round++ == k_warp_rounds_max) fail();
       if (failed_ == 0) run_groups();
     } while (failed_ == 0 && merge_conflicting());
-    if (failed_ == 0 && commit()) return true;
-    ++count_.returns;
-    return false;
+    return failed_ == 0 && commit();
   }
 
  private:
@@ -477,8 +474,12 @@ class TimeWarp {
 }  // namespace
 
 bool process_in_groups(ImpactStage& stage, ImpactOrder order, WarpCount& count) {
-  if (!stage.moving.make(stage.bodies.active, stage.bodies.bounds, stage.spare)) return false;
-  return TimeWarp(stage, count).run(order == ImpactOrder::conservative);
+  ++count.ticks;
+  if (stage.moving.make(stage.bodies.active, stage.bodies.bounds, stage.spare) &&
+      TimeWarp(stage, count).run(order == ImpactOrder::conservative))
+    return true;
+  ++count.returns;
+  return false;
 }
 #endif
 
