@@ -167,24 +167,32 @@ DETENT_TEST(time_warp, changes_no_bit_of_rocks_that_fall_down_a_mountain) {
   EXPECT_GT(expect_global_bits(make, 40, 6).speculations, 30u);
 }
 
+/// A ball that rebounds without loss.
+void add_ball(Arena& arena, double radius, const double (&at)[3], const Vec3<Real>& velocity, double density = 1000) {
+  BodyDef def;
+  def.shape = sphere(real(radius));
+  def.position = position(at[0], at[1], at[2]);
+  def.linear_velocity = velocity;
+  def.material.restitution = real(1.0);
+  def.material.friction = real(0.0);
+  def.density = scaled(density);
+  arena.add(def);
+}
+
+constexpr double k_thrown = 1200;  ///< m/s: 20 m in a tick
+
+/// A ball from below sets another one, at `at`, in motion along x after 0.05 of the tick, and flies on upwards.
+void throw_ball(Arena& arena, const double (&at)[3]) {
+  add_ball(arena, 0.05, {at[0] - 1.1, at[1] - 1, at[2]}, reals(k_thrown, k_thrown, 0));
+  add_ball(arena, 0.05, at, reals(0, 0, 0));
+}
+
 /// The way of a ball turns from x to z and back at fixed walls. Before each wall a gate closes it: a heavy ball that
 /// another one knocks away before the first one comes.
 struct Gates {
-  static constexpr double k_speed = 1200;  // 20 m in a tick
-
   Arena& arena;
   double row;  ///< z, m
 
-  void add_ball(double radius, const double (&at)[3], const Vec3<Real>& velocity) {
-    BodyDef def;
-    def.shape = sphere(real(radius));
-    def.position = position(at[0], at[1], row + at[2]);
-    def.linear_velocity = velocity;
-    def.material.restitution = real(1.0);
-    def.material.friction = real(0.0);
-    def.density = scaled(radius > 0.05 ? 1e6 : 1e3);
-    arena.add(def);
-  }
   void add_wall(double x, double z) {
     BodyDef def;
     def.type = BodyType::fixed;
@@ -196,15 +204,14 @@ struct Gates {
     arena.add(def);
   }
   void add(uint32_t count) {
-    // The first ball, from below, sets the second one in motion along x after 0.05 of the tick, and flies on upwards.
-    add_ball(0.05, {-1.1, -1, 0}, reals(k_speed, k_speed, 0));
-    add_ball(0.05, {0, 0, 0}, reals(0, 0, 0));
+    throw_ball(arena, {0, 0, row});
     double x = 0, z = 0;
     for (uint32_t i = 0; i < count; ++i) {
       const bool along_x = i % 2 == 0;
       const double beyond = along_x ? 0.0708 : -0.0708;  // the wall touches the ball at the corner
-      add_ball(0.1, {along_x ? x + 1 : x, 0, along_x ? z : z + 1}, reals(0, 0, 0));
-      add_ball(0.1, {along_x ? x + 1 : x, 1, along_x ? z : z + 1}, reals(0, -k_speed, 0));
+      const double gate_x = along_x ? x + 1 : x, gate_z = row + (along_x ? z : z + 1);
+      add_ball(arena, 0.1, {gate_x, 0, gate_z}, reals(0, 0, 0), 1e6);
+      add_ball(arena, 0.1, {gate_x, 1, gate_z}, reals(0, -k_thrown, 0), 1e6);
       (along_x ? x : z) += 2;
       add_wall(x + beyond, z - beyond);
     }
@@ -254,19 +261,62 @@ DETENT_TEST(time_warp, runs_the_same_groups_for_any_number_of_threads) {
   }
 }
 
+/// Small rooms far apart, in each of which three balls fly to and fro.
+Make rooms(uint32_t count, double speed, uint32_t contacts) {
+  return [=] {
+    auto arena = std::make_unique<Arena>(Capacity{9 * count, contacts, 0, true}, weightless());
+    Random random = 3;
+    for (uint32_t room = 0; room < count; ++room) {
+      const double x = 400.0 * room;
+      for (int wall = 0; wall < 6; ++wall) {
+        double size[3] = {1.5, 1.5, 1.5}, at[3] = {x, 0, 0};
+        size[wall / 2] = 0.5;
+        at[wall / 2] += wall % 2 == 0 ? 1 : -1;
+        BodyDef def;
+        def.type = BodyType::fixed;
+        def.shape = box(reals(size[0], size[1], size[2]));
+        def.position = position(at[0], at[1], at[2]);
+        def.material.restitution = real(1.0);
+        arena->add(def);
+      }
+      for (int i = 0; i < 3; ++i)
+        add_ball(*arena, 0.1, {x + 0.3 * (i - 1), 0.02 * signed_unit(random), 0},
+                 reals(speed * signed_unit(random), speed * signed_unit(random), speed * signed_unit(random)));
+    }
+    return arena;
+  };
+}
+
 DETENT_TEST(time_warp, drops_the_same_impacts_where_the_pool_is_full) {
   for (const uint32_t contacts : {20u, 60u, 110u})
     expect_global_bits(box_of_bodies(5, 0.8, 90, 4, contacts), 4, contacts);
+  WarpCount count;
+  for (const uint32_t contacts : {130u, 180u, 230u}) count += expect_global_bits(rooms(20, 500, contacts), 3, contacts);
+  EXPECT_GT(count.returns, 0u);
 }
 
+/// No room spends the work of all, but all rooms together do.
 DETENT_TEST(time_warp, returns_to_the_global_order_where_the_work_is_spent) {
-  const Make make = [] {
-    auto arena = std::make_unique<Arena>(Capacity{40, 600, 0, true}, weightless());
-    fill_box(*arena, 3, 0.9, 6000, 1);
-    return arena;
-  };
-  const WarpCount count = expect_global_bits(make, 6, 2);
+  const WarpCount count = expect_global_bits(rooms(12, 8000, 2000), 3, 2);
   EXPECT_GT(count.returns, 0u);
+  EXPECT_GT(count.speculations, count.ticks);
+}
+
+/// Rows of balls that touch each other: a blow passes from pair to pair at one time, the same in each row.
+DETENT_TEST(time_warp, keeps_the_order_of_hits_at_equal_times) {
+  for (uint32_t seed = 0; seed < 8; ++seed) {
+    const Make make = [seed] {
+      auto arena = std::make_unique<Arena>(Capacity{64, 500, 0, true}, weightless());
+      constexpr uint32_t k_rows = 8, k_balls = 5;
+      for (uint32_t i = 0; i < k_rows * k_balls; ++i) {
+        const uint32_t which = (i * 7 + seed * 11) % (k_rows * k_balls), ball = which % k_balls;  // in mixed slots
+        add_ball(*arena, 0.25, {ball == 0 ? -1.0 : 0.5 * ball, 0, 30.0 * (which / k_balls)},
+                 reals(ball == 0 ? 90.0 : 0.0, 0, 0));
+      }
+      return arena;
+    };
+    expect_global_bits(make, 2, seed);
+  }
 }
 
 /// Fast bodies fly into sleeping ones. Waking is left to the global order.
@@ -287,6 +337,24 @@ DETENT_TEST(time_warp, wakes_the_same_bodies) {
     return arena;
   };
   expect_global_bits(make, 12, 4);
+}
+
+/// A ball that was awake is thrown at one that sleeps, in the same tick. Two of the sleepers sleep together.
+DETENT_TEST(time_warp, leaves_a_later_waking_to_the_global_order) {
+  const Make make = [] {
+    auto arena = std::make_unique<Arena>(Capacity{40, 300, 0, true}, weightless(), true);
+    for (uint32_t row = 0; row < 6; ++row) {
+      add_ball(*arena, 0.1, {6.0, 0, 40.0 * row}, reals(0, 0, 0));
+      if (row == 2) add_ball(*arena, 0.1, {6.2, 0, 40.0 * row}, reals(0, 0, 0));
+    }
+    EXPECT_EQ(arena->run(50).awake, 0u);
+    for (uint32_t row = 0; row < 6; ++row) throw_ball(*arena, {0, 0, 40.0 * row});
+    return arena;
+  };
+  WarpCount count;
+  expect_equal_ticks(make, 1, ImpactOrder::optimistic, {}, count);
+  EXPECT_EQ(count.returns, 1u);
+  expect_global_bits(make, 3, 1);
 }
 
 DETENT_TEST(time_warp, is_not_used_with_sensors) {
