@@ -90,7 +90,7 @@ WarpSweep start_of(const ImpactBodies& bodies, uint32_t slot);
 template <class T>
 bool make_room(Span<T>& items, uint32_t used, SpareMemory& spare) {
   if (used < items.count) return true;
-  const Span<T> more = spare.take<T>(items.count == 0 ? 8 : 2 * items.count);
+  const Span<T> more = spare.take<T>(items.count == 0 ? 2 : 2 * items.count);
   if (more.count == 0) return false;
   for (uint32_t i = 0; i < used; ++i) more[i] = items[i];
   items = more;
