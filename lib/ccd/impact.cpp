@@ -81,16 +81,16 @@ void go_on(ImpactStage& stage, ImpactPair& pair) {
 }
 
 #if DETENT_TASKS
-/// Number of entries of an impact list that makes it worth the while to process them in groups.
-constexpr uint32_t k_impacts_shared = 64;
+/// With fewer entries than this after the first search, groups cost more than they save.
+constexpr uint32_t k_entries_for_groups = 64;
 
-/// Processes all events in the order that pays.
+/// Processes all events, in groups if that pays.
 void process_all(ImpactStage& stage) {
   const ImpactProbe* const probe = stage.probe;
   ImpactOrder order = probe == nullptr ? ImpactOrder::automatic : probe->order;
   if (order == ImpactOrder::automatic) {
     const Team* const team = stage.settings.team;
-    const bool pays = team != nullptr && stage.impact_count > team->few(k_impacts_shared);
+    const bool pays = team != nullptr && stage.impact_count > team->few(k_entries_for_groups);
     order = pays ? ImpactOrder::optimistic : ImpactOrder::global;
   }
   // These are called, or written to, in the order of the events.
@@ -104,18 +104,16 @@ void process_all(ImpactStage& stage) {
 
 }  // namespace
 
+#if DETENT_TASKS
 void ImpactStage::process_events() {
-#if DETENT_TASKS
   if (impact_count >= k_many_entries) heads.make(impacts.count, warp == nullptr ? spare : warp->spare);
-#endif
   while (ImpactPair* pair = next(*this)) {
-#if DETENT_TASKS
     if (warp != nullptr) warp->begin_event(*pair);
     if (gives_up()) return;
-#endif
     go_on(*this, *pair);
   }
 }
+#endif
 
 ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& assets, const FeatureTable& features,
                                 const ImpactPairs& pairs, const ImpactBodies& bodies, Span<ImpactPair> impacts,
@@ -129,7 +127,7 @@ ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& 
 #if DETENT_TASKS
   process_all(stage);
 #else
-  stage.process_events();
+  while (ImpactPair* pair = next(stage)) go_on(stage, *pair);
 #endif
   stage.finish_momentum();
 #if DETENT_SPARSE

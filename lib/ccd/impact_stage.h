@@ -128,10 +128,12 @@ struct ImpactStage {
     return min(shape_extent(bodies.properties[pair_low(key)]), shape_extent(bodies.properties[pair_high(key)]));
   }
 
+#if DETENT_TASKS
   // impact.cpp
 
   /// Processes all events in the order of their times, ties by the lower key.
   void process_events();
+#endif
 
   // impact_sweeps.cpp
 

@@ -4,19 +4,15 @@
 
 /// Processes impacts in groups, at the same time, and each group to the end of the tick.
 ///
-/// A group is *optimistic*: it takes all bodies but its own as they were at the start. A body becomes its own when the
-/// group makes an entry with it; the group then changes a copy. When all groups have ended, two of them *conflict* if
-/// one of them may have missed what the other has done:
+/// A group is optimistic: it takes all bodies but its own as they were at the start. A body becomes its own when the
+/// group makes an entry with it; the group then changes a copy. When all groups have ended, two of them conflict if
+/// they have copies of the same body, or if a test of a body of one with a body of the other, made as in the global
+/// order, finds an event. Only bodies whose sweeps overlap by their bounds are tested, so all tests that the groups
+/// missed, or made with a state of the other body that was not that of the global order, are compared. Those that find
+/// no event only correct the counts (PairTests). So groups without a conflict did what happens in the global order.
 ///
-/// - both have a copy of the same body,
-/// - the new sweeps of a body of one group overlap the new sweeps of a body of the other, or
-/// - the new sweeps of a body of one group overlap the sweep that a body of the other group had at the start, and not
-///   all of them begin before the other group changed that body.
-///
-/// A group reads another body only if its bounds overlap those of a new sweep. So without a conflict each group has
-/// read of the bodies of others only what they were at that time in the global order, and the results are those of the
-/// global order. Groups that conflict are rolled back: their copies are discarded, and they are run again as one group.
-/// The number of groups falls each time.
+/// Groups that conflict are rolled back: their copies are discarded, and they are run again as one group. The number
+/// of groups falls each time.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -234,7 +230,7 @@ class TimeWarp {
   }
   /// Whether the other threads would mostly wait for this group.
   bool is_too_large(const WarpGroup& group) const {
-    return stage_.settings.team != nullptr && group.start_count > stage_.impact_count / 4 * 3;
+    return stage_.settings.team != nullptr && 4 * group.start_count > 3 * stage_.impact_count;
   }
   void append(WarpGroup& group, uint32_t first, uint32_t last, uint32_t count) {
     (group.start_count == 0 ? group.first_start : next_start_[group.last_start]) = first;
