@@ -291,6 +291,20 @@ bool is_new_impact(const ImpactStage& stage, uint64_t key, Span<const ContactWor
   return rebounds;
 }
 
+/// Tests the new sweep of a body against another body whose bounds overlap its bounds.
+void test_near(ImpactStage& stage, uint32_t slot, uint32_t other, Fraction time) {
+  if (is_at_rest(stage.sweep_of(slot)) && is_at_rest(stage.sweep_of(other))) return;
+  const uint64_t key = key_of_pair(slot, other);
+  const Span<const ContactWork> contacts = find_contacts(stage.known.contacts, key);
+  ImpactPair* const entry = find_impact(stage, key);
+  Real clearance = k_zero, shrink_depth = k_zero;
+  if (!is_new_impact(stage, key, contacts)) {
+    shrink_depth = first_shrink_depth(stage, key, contacts, clearance);
+    if (is_safe(stage, key, contacts, time, clearance, entry)) return;
+  }
+  stage.test(key, time, shrink_depth, entry);
+}
+
 /// Tests the new sweep of a body against all other bodies.
 void test_changed(ImpactStage& stage, uint32_t slot, Fraction time) {
   stage.sweep_of(slot).marks &= ~k_mark_changed;
@@ -298,27 +312,14 @@ void test_changed(ImpactStage& stage, uint32_t slot, Fraction time) {
 #if DETENT_TASKS
   if (stage.warp != nullptr) stage.warp->add_test(slot);
 #endif
-  for_each_near(stage, slot, [&](uint32_t other) { stage.test_near(slot, other, time); });
+  for_each_near(stage, slot, [&](uint32_t other) { test_near(stage, slot, other, time); });
 }
 
 }  // namespace
 
-void ImpactStage::test_near(uint32_t slot, uint32_t other, Fraction time) {
-  if (is_at_rest(sweep_of(slot)) && is_at_rest(sweep_of(other))) return;
-  const uint64_t key = key_of_pair(slot, other);
-  const Span<const ContactWork> contacts = find_contacts(known.contacts, key);
-  ImpactPair* const entry = find_impact(*this, key);
-  Real clearance = k_zero, shrink_depth = k_zero;
-  if (!is_new_impact(*this, key, contacts)) {
-    shrink_depth = first_shrink_depth(*this, key, contacts, clearance);
-    if (is_safe(*this, key, contacts, time, clearance, entry)) return;
-  }
-  test(key, time, shrink_depth, entry);
-}
-
 #if DETENT_TASKS
 void ImpactStage::test_if_near(uint32_t slot, uint32_t other, Fraction time) {
-  if (are_near(*this, slot, other)) test_near(slot, other, time);
+  if (are_near(*this, slot, other)) test_near(*this, slot, other, time);
 }
 #endif
 

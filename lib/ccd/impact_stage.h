@@ -172,10 +172,8 @@ struct ImpactStage {
   /// As the first part of find_first(): the pairs in `known`. Several threads search. Returns false, and changes
   /// nothing, if the pairs must be searched in order.
   bool find_first_shared();
-  /// Tests the new sweep of a body against another body whose bounds overlap its bounds.
-  void test_near(uint32_t slot, uint32_t other, Fraction time);
 #if DETENT_TASKS
-  /// As test_near(), if the bounds overlap and the bodies may touch.
+  /// Tests the new sweep of a body against another body, if their bounds overlap and they may touch.
   void test_if_near(uint32_t slot, uint32_t other, Fraction time);
 #endif
   /// Tests the sweeps that have changed against all other bodies.
