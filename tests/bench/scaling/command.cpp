@@ -23,9 +23,10 @@ constexpr const char* k_help =
             loop and a group of loops cost what they cost here, a loop once for each doubling of the threads
 Then, of the scene S4-rays, rays of 10 m through the heap of S4, awake and asleep, in thousands a second (least time of 51): a
 call for each ray, and batches on 1, 2 and more threads.
-Then, of scenes with impacts (break-1000, fast-5000, fast-5000-sparse, rocks-300, impacts-S8), the stage advance in each order of the
-impacts: mean ms in ticks with an impact, how many times as fast the stage is on several threads, measured and computed
-as above, and what Time Warp did: ticks begun in groups, runs of groups, runs rolled back, rounds, returns to the global order.
+Then, of the scenes break-1000, impacts-S8, fast-5000, fast-5000-sparse and rocks-300, the stage advance in each order of the
+impacts (docs/threads.md): mean ms in ticks with an impact; how many times as fast as the global order on one thread it is,
+measured and computed as above; and of Time Warp the ticks for which groups were tried, runs of groups, runs that were
+rolled back, rounds, and ticks that returned to the global order.
 All digests are compared: exit code 1 if one differs.)";
 
 constexpr uint32_t k_bounds[] = {2, 4, 8, 16, 32, 64};
@@ -185,7 +186,7 @@ int run_scaling(const ScalingOptions& options) {
       "back, "
       "rounds, returns\n");
   for (const char* scene : k_impact_scenes) {
-    if (!is_wanted(options.scenes, scene == std::string("S8") ? "impacts-S8" : scene)) continue;
+    if (!is_wanted(options.scenes, scene)) continue;
     for (const ScalingEngine& engine : all_scaling_engines()) {
       if (!is_wanted(options.configs, engine.config)) continue;
       const std::vector<ImpactRow> all = engine.measure_impacts(scene, threads);

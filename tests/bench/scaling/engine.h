@@ -71,7 +71,8 @@ struct ScalingEngine {
   /// A scene of k_impact_scenes in each order.
   std::function<std::vector<ImpactRow>(const std::string& scene, const std::vector<uint32_t>& threads)> measure_impacts;
 };
-inline constexpr const char* k_impact_scenes[] = {"break-1000", "S8", "fast-5000", "fast-5000-sparse", "rocks-300"};
+inline constexpr const char* k_impact_scenes[] = {"break-1000", "impacts-S8", "fast-5000", "fast-5000-sparse",
+                                                  "rocks-300"};
 using ScalingEngineList = std::vector<ScalingEngine>;
 
 /// Every configuration of this build.

@@ -23,7 +23,7 @@ namespace {
 
 using namespace detent_bench;
 
-constexpr uint32_t k_impact_repetitions = 3;
+constexpr uint32_t k_impact_repetitions = 5;  ///< of each tick the fastest counts
 
 void require_ok(Status status) {
   if (status != Status::ok) abort();
@@ -150,9 +150,9 @@ struct Subject {
     if (scene == "break-1000") own = break_of_balls();
     if (scene == "rocks-300") own = avalanche();
     if (scene == "rocks-300") ticks = 120;
-    if (scene == "S8")
+    if (scene == "impacts-S8")
       settled = std::make_unique<Settled>(ScalingScene{scene, [] { return detent_stress::dominoes(200); }, 60, 0});
-    if (scene == "S8") ticks = 60;
+    if (scene == "impacts-S8") ticks = 60;
   }
   World& world() { return own ? own->world : settled->world(); }
 };
@@ -255,7 +255,13 @@ std::vector<ImpactRow> measure_impacts(const std::string& scene, const std::vect
       row.same = rows.empty() || row.last == rows[0].last;
     }
     Recorded recorded;
-    const ImpactRun alone = run(scene, order.order, recorded.tasks(), &recorded);
+    ImpactRun alone = run(scene, order.order, recorded.tasks(), &recorded);
+    for (uint32_t i = 1; i < k_impact_repetitions; ++i) {
+      const ImpactRun again = run(scene, order.order, recorded.tasks(), &recorded);
+      for (size_t tick = 0; tick < alone.ticks.size(); ++tick) {
+        if (again.ticks[tick].ns < alone.ticks[tick].ns) alone.ticks[tick] = again.ticks[tick];
+      }
+    }
     for (size_t i = 0; i < alone.ticks.size(); ++i) {
       row.impacts += alone.impacts[i];
       if (alone.impacts[i] != 0) row.ticks.push_back(alone.ticks[i]);
