@@ -101,7 +101,7 @@ bool make_room(Span<T>& items, uint32_t used, SpareMemory& spare) {
 struct WarpRun {
   WarpGroup& group;
   const WarpPart& part;
-  const ImpactBodies& bodies;  ///< at the start; nobody changes them while groups run
+  const ImpactBodies& bodies;  ///< at the start; they do not change while groups run
   SpareMemory& spare;
   uint32_t& failed;  ///< not 0: some group met what only the global order can do
   Fraction time = 0.0;
