@@ -7,13 +7,22 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
+#if DETENT_TASKS
+/// With fewer entries than this after the first search, all are visited for each event.
+constexpr uint32_t k_many_entries = 64;
+#endif
+
 /// The pair with the earliest event, ties by the lower key; null if there is none.
-ImpactPair* next(const ImpactStage& stage) {
+ImpactPair* next(ImpactStage& stage) {
+#if DETENT_TASKS
+  if (stage.heads.is_made())
+    return stage.heads.earliest(stage.impacts.first(stage.impact_count),
+                                [](const ImpactPair& pair) { return pair.next != k_next_none; });
+#endif
   ImpactPair* best = nullptr;
-  for (uint32_t i = 0; i < stage.impact_count; ++i) {
-    ImpactPair& pair = stage.impacts[i];
+  for (ImpactPair& pair : stage.impacts.first(stage.impact_count)) {
     if (pair.next == k_next_none) continue;
-    if (best == nullptr || pair.time < best->time || (pair.time == best->time && pair.key < best->key)) best = &pair;
+    if (best == nullptr || is_earlier(pair, *best)) best = &pair;
   }
   return best;
 }
@@ -42,13 +51,14 @@ void go_on(ImpactStage& stage, ImpactPair& pair) {
     return;
   }
   pair.next = k_next_none;
+  stage.touch(pair);
   pair.last = time;
   stage.report.undecided += undecided ? 1 : 0;
   for (const uint32_t slot : slots) {
     if (!stage.dynamic(slot)) continue;
     stage.move_to(slot, time);
     stage.report.clamped +=
-        clamp_rotation(stage.bodies.properties[slot], stage.settings.tick_time, stage.bodies.sweeps[slot]);
+        clamp_rotation(stage.bodies.properties[slot], stage.settings.tick_time, stage.sweep_of(slot));
   }
   const BodyPose pose_a = pose_at(stage.body(slots[0]), time), pose_b = pose_at(stage.body(slots[1]), time);
   stage.first_approach = k_zero;
@@ -63,14 +73,47 @@ void go_on(ImpactStage& stage, ImpactPair& pair) {
   if (pair.impacts == 0) pair.impacts = 1;
   for (const uint32_t slot : slots) {
     if (!stage.dynamic(slot)) continue;
-    BodySweep& sweep = stage.bodies.sweeps[slot];
+    BodySweep& sweep = stage.sweep_of(slot);
     if (++sweep.impacts >= impacts_max) stage.stop(slot, time);
     if ((sweep.marks & k_mark_changed) == 0) stage.change(slot);
   }
   stage.test_all_changed(time);
 }
 
+#if DETENT_TASKS
+/// With fewer entries than this after the first search, groups cost more than they save.
+constexpr uint32_t k_entries_for_groups = 64;
+
+/// Processes all events, in groups if that pays.
+void process_all(ImpactStage& stage) {
+  const ImpactProbe* const probe = stage.probe;
+  ImpactOrder order = probe == nullptr ? ImpactOrder::automatic : probe->order;
+  if (order == ImpactOrder::automatic) {
+    const Team* const team = stage.settings.team;
+    const bool pays = team != nullptr && stage.impact_count > team->few(k_entries_for_groups);
+    order = pays ? ImpactOrder::optimistic : ImpactOrder::global;
+  }
+  // These are called, or written to, in the order of the events.
+  if (stage.bodies.listener.ended != nullptr || (probe != nullptr && probe->segments.count != 0))
+    order = ImpactOrder::global;
+  WarpCount none;
+  if (order == ImpactOrder::global || !process_in_groups(stage, order, probe == nullptr ? none : stage.probe->warp))
+    stage.process_events();
+}
+#endif
+
 }  // namespace
+
+#if DETENT_TASKS
+void ImpactStage::process_events() {
+  if (impact_count >= k_many_entries) heads.make(impacts.count, warp == nullptr ? spare : warp->spare);
+  while (ImpactPair* pair = next(*this)) {
+    if (warp != nullptr) warp->begin_event(*pair);
+    if (gives_up()) return;
+    go_on(*this, *pair);
+  }
+}
+#endif
 
 ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& assets, const FeatureTable& features,
                                 const ImpactPairs& pairs, const ImpactBodies& bodies, Span<ImpactPair> impacts,
@@ -81,7 +124,11 @@ ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& 
   stage.start_sweeps();
   stage.find_first();
   stage.test_all_changed(Fraction(0.0));
+#if DETENT_TASKS
+  process_all(stage);
+#else
   while (ImpactPair* pair = next(stage)) go_on(stage, *pair);
+#endif
   stage.finish_momentum();
 #if DETENT_SPARSE
   if (probe != nullptr) {

@@ -47,6 +47,25 @@ struct ImpactUse {
   bool is_spent() const { return work >= k_impact_work_min + budget; }
 };
 
+#if DETENT_TASKS
+/// In which order impacts are processed. The results are the same.
+enum class ImpactOrder : uint8_t {
+  automatic,     ///< `optimistic` if there are threads and enough impacts, else `global`
+  global,        ///< in the order of their times over the whole world
+  conservative,  ///< in groups that also hold what their bodies were near at the start (time_warp.cpp)
+  optimistic,    ///< in groups that are connected by the first impacts
+};
+
+/// What Time Warp did (time_warp.cpp).
+struct WarpCount {
+  uint32_t ticks = 0;         ///< ticks for which groups were tried
+  uint32_t speculations = 0;  ///< runs of groups
+  uint32_t rollbacks = 0;     ///< runs whose result was discarded
+  uint32_t rounds = 0;
+  uint32_t returns = 0;  ///< of these ticks: those that were processed in the global order after all
+};
+#endif
+
 /// For tests: records the sweeps, and can switch off the filter that skips pairs which cannot collide. For rollback:
 /// records what the bodies reach.
 struct ImpactProbe {
@@ -54,6 +73,10 @@ struct ImpactProbe {
   /// The segments of all moving bodies, in the order in which they begin; only as many as fit.
   Span<SweepSegment> segments;
   uint32_t segment_count = 0;  ///< includes segments that did not fit
+#if DETENT_TASKS
+  ImpactOrder order = ImpactOrder::automatic;
+  WarpCount warp = {};
+#endif
 #if DETENT_SPARSE
   Span<Bounds> reach = {};  ///< by slot: the bounds of all sweeps of the body are added; may be empty
   ImpactUse use = {};
@@ -100,6 +123,9 @@ struct ImpactBodies {
   Span<uint32_t> first_impact;
   FilterRuleTable filter_rules = {};
   SweepListener listener = {};
+#if DETENT_TASKS
+  Span<uint64_t> spare = {};  ///< work space; less of it costs time and changes no result
+#endif
 };
 
 /// The pairs and contacts that earlier stages found.

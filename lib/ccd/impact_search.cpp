@@ -40,7 +40,7 @@ Span<const ContactWork> find_contacts(Span<const ContactWork> contacts, uint64_t
   return pair_contacts(contacts_from(contacts, key), key);
 }
 
-bool jointed(const ImpactStage& stage, uint32_t slot) { return stage.bodies.sweeps[slot].marks >= k_mark_jointed; }
+bool jointed(const ImpactStage& stage, uint32_t slot) { return stage.sweep_of(slot).marks >= k_mark_jointed; }
 bool is_ball(const ImpactStage& stage, uint32_t slot) {
   return shape_of(stage.bodies.properties[slot]) == ShapeType::sphere;
 }
@@ -57,28 +57,40 @@ bool may_collide(const ImpactStage& stage, uint32_t a, uint32_t b) {
     return false;
   if (!jointed(stage, a) && !jointed(stage, b)) return true;
   if (is_half_space(stage.bodies.properties[a]) || is_half_space(stage.bodies.properties[b])) return false;
-  return stage.bodies.sweeps[a].marks / k_mark_jointed != stage.bodies.sweeps[b].marks / k_mark_jointed;
+  return stage.sweep_of(a).marks / k_mark_jointed != stage.sweep_of(b).marks / k_mark_jointed;
 }
 
 /// Adds all bodies whose bounds overlap those of `slot` to the candidates.
-__attribute__((noinline)) void find_near(const ImpactStage& stage, uint32_t slot) {
-  const Bounds& box = stage.bodies.bounds[slot];
-  stage.bodies.resting.for_each_near(box, [&](uint32_t other) { stage.bodies.candidates.set(other); });
+__attribute__((noinline)) void find_near(ImpactStage& stage, uint32_t slot) {
+  const Bounds& box = stage.bounds_of(slot);
+  const auto add = [&](uint32_t other) { stage.candidates().set(other); };
+  stage.bodies.resting.for_each_near(box, add);
+#if DETENT_TASKS
+  if (stage.warp == nullptr) stage.moving.prepare(stage.bodies.active, stage.bodies.bounds, stage.spare);
+  if (stage.moving.is_made()) {
+    stage.moving.tree(stage.bodies.bounds).for_each_near(box, add);
+    if (stage.warp != nullptr) stage.changeable().for_each(add);
+    return;
+  }
+#endif
   stage.bodies.active.for_each([&](uint32_t other) {
-    if (overlap(box, stage.bodies.bounds[other])) stage.bodies.candidates.set(other);
+    if (overlap(box, stage.bounds_of(other))) add(other);
   });
+}
+
+/// Whether the bounds of two bodies overlap that may touch.
+bool are_near(const ImpactStage& stage, uint32_t slot, uint32_t other) {
+  return overlap(stage.bounds_of(slot), stage.bounds_of(other)) && may_collide(stage, slot, other);
 }
 
 /// Visits all other bodies that may touch `slot` and whose bounds overlap its bounds, in the order of their slots.
 template <class Visit>
-void for_each_near(const ImpactStage& stage, uint32_t slot, const Visit& visit) {
+void for_each_near(ImpactStage& stage, uint32_t slot, const Visit& visit) {
   find_near(stage, slot);
-  stage.bodies.candidates.for_each([&](uint32_t other) {
-    stage.bodies.candidates.clear(other);
+  stage.candidates().for_each([&](uint32_t other) {
+    stage.candidates().clear(other);
     // An earlier visit may have stopped either body.
-    if (other != slot && overlap(stage.bodies.bounds[slot], stage.bodies.bounds[other]) &&
-        may_collide(stage, slot, other))
-      visit(other);
+    if (other != slot && are_near(stage, slot, other)) visit(other);
   });
 }
 
@@ -97,7 +109,7 @@ ImpactPair* find_impact(const ImpactStage& stage, uint64_t key) {
 /// contact may have been left out as a sliver.
 Real distance_without_contact(const ImpactStage& stage, uint64_t key) {
   const uint32_t low = pair_low(key), high = pair_high(key);
-  const BodySweep &a = stage.bodies.sweeps[low], &b = stage.bodies.sweeps[high];
+  const BodySweep &a = stage.sweep_of(low), &b = stage.sweep_of(high);
   const auto is_known = [](const BodySweep& sweep) {
     return (sweep.marks & (k_mark_moved | k_mark_sliver)) == k_mark_moved;
   };
@@ -151,25 +163,6 @@ Real first_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const Conta
   return held;
 }
 
-/// Returns the pair's entry in `impacts`, and makes it if there is none. Returns null if there is no room.
-ImpactPair* entry_of(ImpactStage& stage, uint64_t key, ImpactPair* entry) {
-  if (entry != nullptr) return entry;
-  if (stage.impact_count == stage.impacts.count) return nullptr;
-  if (stage.impact_count == 0) {
-    for (uint32_t& first : stage.bodies.first_impact) first = 0;
-  }
-  entry = &stage.impacts[stage.impact_count++];
-  *entry = {};
-  entry->key = key;
-  const uint32_t slots[2] = {pair_low(key), pair_high(key)};
-  for (int i = 0; i < 2; ++i) {
-    if (!stage.dynamic(slots[i])) continue;
-    entry->more[i] = stage.bodies.first_impact[slots[i]];
-    stage.bodies.first_impact[slots[i]] = stage.impact_count;
-  }
-  return entry;
-}
-
 /// The time of the next test of a pair that was found touching `tests` times; 1 for never.
 Fraction next_test_after(Fraction time, uint32_t tests) {
   if (tests == 0 || tests > k_tests_max) return k_whole_step;
@@ -196,14 +189,14 @@ struct TickMotion {
 
 DETENT_SHARED TickMotion motion_in_tick(const ImpactStage& stage, uint32_t slot, Fraction time) {
   const BodyProperties& properties = stage.bodies.properties[slot];
-  const BodySweep& sweep = stage.bodies.sweeps[slot];
+  const BodySweep& sweep = stage.sweep_of(slot);
   const Sweep rest = rest_of(sweep, sweep.from);
   TickMotion motion;
   motion.displacement = rest.displacement;
   motion.rotation_vector = rest.rotation_vector;
   motion.swing = swing_bound(properties, rest.rotation_vector);
   if ((sweep.marks & k_mark_hit) != 0) {
-    const ImpactPath& path = stage.bodies.paths[slot];
+    const ImpactPath& path = stage.path_of(slot);
     motion.displacement += path.displacement;
     motion.rotation_vector += path.rotation_vector;
     motion.swing += path.bound;
@@ -260,14 +253,14 @@ bool is_safe(ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts,
 void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts) {
   const uint32_t low = pair_low(key), high = pair_high(key);
   if (!stage.dynamic(low) && !stage.dynamic(high)) return;
-  if (is_at_rest(stage.bodies.sweeps[low]) && is_at_rest(stage.bodies.sweeps[high])) return;
-  if (!overlap(stage.bodies.bounds[low], stage.bodies.bounds[high]) || !may_collide(stage, low, high)) return;
+  if (is_at_rest(stage.sweep_of(low)) && is_at_rest(stage.sweep_of(high))) return;
+  if (!overlap(stage.bounds_of(low), stage.bounds_of(high)) || !may_collide(stage, low, high)) return;
   Real clearance = k_zero;
   const Real shrink_depth = first_shrink_depth(stage, key, contacts, clearance);
   const Fraction start = 0.0;
   // The sum of both bounds is cheap to compute, and mostly sufficient. No body was hit yet.
   const auto bound = [&](uint32_t slot) {
-    return is_at_rest(stage.bodies.sweeps[slot]) ? k_zero : stage.bodies.paths[slot].bound;
+    return is_at_rest(stage.sweep_of(slot)) ? k_zero : stage.path_of(slot).bound;
   };
   if (stage.filters() && bound(low) + bound(high) < clearance) {
     ++stage.report.skipped;
@@ -292,7 +285,7 @@ void test_all_at_start(ImpactStage& stage, Span<const uint64_t> pairs) {
 bool is_new_impact(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts) {
   const uint32_t low = pair_low(key), high = pair_high(key);
   if (contacts.count == 0 || jointed(stage, low) || jointed(stage, high)) return false;
-  const Vec3<Real> relative = stage.bodies.sweeps[high].displacement - stage.bodies.sweeps[low].displacement;
+  const Vec3<Real> relative = stage.sweep_of(high).displacement - stage.sweep_of(low).displacement;
   const Real touching = -scale_by_power(stage.extent_of(key), -10);
   bool rebounds = false;
   for (const ContactWork& contact : contacts) {
@@ -305,25 +298,70 @@ bool is_new_impact(const ImpactStage& stage, uint64_t key, Span<const ContactWor
   return rebounds;
 }
 
+/// Tests the new sweep of a body against another body whose bounds overlap its bounds.
+void test_near(ImpactStage& stage, uint32_t slot, uint32_t other, Fraction time) {
+  if (is_at_rest(stage.sweep_of(slot)) && is_at_rest(stage.sweep_of(other))) return;
+  const uint64_t key = key_of_pair(slot, other);
+  const Span<const ContactWork> contacts = find_contacts(stage.known.contacts, key);
+  ImpactPair* const entry = find_impact(stage, key);
+  Real clearance = k_zero, shrink_depth = k_zero;
+  if (!is_new_impact(stage, key, contacts)) {
+    shrink_depth = first_shrink_depth(stage, key, contacts, clearance);
+    if (is_safe(stage, key, contacts, time, clearance, entry)) return;
+  }
+  stage.test(key, time, shrink_depth, entry);
+}
+
 /// Tests the new sweep of a body against all other bodies.
 void test_changed(ImpactStage& stage, uint32_t slot, Fraction time) {
-  stage.bodies.sweeps[slot].marks &= ~k_mark_changed;
+  stage.sweep_of(slot).marks &= ~k_mark_changed;
   --stage.changed_count;
-  for_each_near(stage, slot, [&](uint32_t other) {
-    if (is_at_rest(stage.bodies.sweeps[slot]) && is_at_rest(stage.bodies.sweeps[other])) return;
-    const uint64_t key = key_of_pair(slot, other);
-    const Span<const ContactWork> contacts = find_contacts(stage.known.contacts, key);
-    ImpactPair* const entry = find_impact(stage, key);
-    Real clearance = k_zero, shrink_depth = k_zero;
-    if (!is_new_impact(stage, key, contacts)) {
-      shrink_depth = first_shrink_depth(stage, key, contacts, clearance);
-      if (is_safe(stage, key, contacts, time, clearance, entry)) return;
-    }
-    stage.test(key, time, shrink_depth, entry);
-  });
+#if DETENT_TASKS
+  if (stage.warp != nullptr) stage.warp->add_test(slot);
+#endif
+  for_each_near(stage, slot, [&](uint32_t other) { test_near(stage, slot, other, time); });
 }
 
 }  // namespace
+
+#if DETENT_TASKS
+void ImpactStage::test_if_near(uint32_t slot, uint32_t other, Fraction time) {
+  if (are_near(*this, slot, other)) test_near(*this, slot, other, time);
+}
+#endif
+
+void ImpactStage::link(ImpactPair& entry, uint32_t place) const {
+  const uint32_t slots[2] = {pair_low(entry.key), pair_high(entry.key)};
+  for (int i = 0; i < 2; ++i) {
+    if (!dynamic(slots[i])) continue;
+    entry.more[i] = first_impact_of(slots[i]);
+    first_impact_of(slots[i]) = place;
+  }
+}
+
+ImpactPair* ImpactStage::add_entry(uint64_t key) {
+#if DETENT_TASKS
+  if (found != nullptr) {
+    ImpactPair* const entry = found->take();
+    if (entry != nullptr) *entry = {};
+    if (entry != nullptr) entry->key = key;
+    return entry;
+  }
+  if (warp != nullptr) {
+    if (!make_room_for(key)) return nullptr;
+  } else
+#endif
+      if (impact_count == 0) {
+    for (uint32_t& first : bodies.first_impact) first = 0;
+  }
+  if (impact_count == impacts.count) return nullptr;
+  ImpactPair& entry = impacts[impact_count++];
+  entry = {};
+  entry.key = key;
+  touch(entry);
+  link(entry, impact_count);
+  return &entry;
+}
 
 bool ImpactStage::is_pushed(uint64_t key) const {
   bool pushed = false;
@@ -341,14 +379,11 @@ void ImpactStage::test(uint64_t key, Fraction time, Real shrink_depth, ImpactPai
   Meeting meeting;
   const TimeOfImpact& impact = meeting.impact;
   const Vec3<Unit> axis = known_axis(*this, key, entry);
-  if (entry != nullptr) entry->next = k_next_none;
-  const bool asked = search.find({shrink_depth, extent_of(key), true, resolved}, axis, meeting);
-#if DETENT_TASKS
-  if (found != nullptr && (!asked || meeting.left || meeting.climbed || impact.outcome != ToiOutcome::clear)) {
-    found->add(key, meeting.stuck);
-    return;
+  if (entry != nullptr) {
+    entry->next = k_next_none;
+    touch(*entry);
   }
-#endif
+  const bool asked = search.find({shrink_depth, extent_of(key), true, resolved}, axis, meeting);
   report.tests += meeting.tests;
   take_work(meeting.tests);
   if (!asked) {
@@ -369,9 +404,9 @@ void ImpactStage::test(uint64_t key, Fraction time, Real shrink_depth, ImpactPai
   const bool meets = impact.outcome != ToiOutcome::clear,
              tests = next_test < k_whole_step && shrink_depth == k_zero && !is_spent();
   if (!meets && !tests) return;
-  entry = entry_of(*this, key, entry);
+  if (entry == nullptr) entry = add_entry(key);
   if (entry == nullptr) {
-    if (!meets) return;
+    if (!meets || found != nullptr || gives_up()) return;
     ++report.pairs_dropped;
     stop(pair_low(key), time);
     stop(pair_high(key), time);
@@ -392,24 +427,19 @@ void ImpactStage::test(uint64_t key, Fraction time, Real shrink_depth, ImpactPai
 #if DETENT_TASKS
 bool ImpactStage::find_first_shared() {
   FoundPairs all = {impacts};
+  ImpactReport sum = {};
   share(settings.team, known.pairs, k_pairs_shared, [&](Span<const uint64_t> part) {
     ImpactStage stage = *this;
     stage.found = &all;
     test_all_at_start(stage, part);
-    Team::add(all.report.tests, stage.report.tests);
-    Team::add(all.report.skipped, stage.report.skipped);
-    Team::add(all.report.kept_apart, stage.report.kept_apart);
+    for (const auto number : k_impact_numbers) Team::add(sum.*number, stage.report.*number);
   });
-  if (all.in_order != 0) return false;
-  report.tests += all.report.tests;
-  report.skipped += all.report.skipped;
-  report.kept_apart += all.report.kept_apart;
-  heap_sort(impacts.first(all.count), [](const ImpactPair& a, const ImpactPair& b) { return a.key < b.key; });
-  // Each pair makes at most one entry in `impacts`, so the keys of later pairs are still there.
-  for (uint32_t i = 0; i < all.count; ++i) {
-    const uint64_t key = impacts[i].key;
-    test_at_start(*this, key, find_contacts(known.contacts, key));
-  }
+  if (all.count > impacts.count) return false;
+  report = sum;
+  impact_count = all.count;
+  if (impact_count == 0) return true;
+  for (uint32_t& first : bodies.first_impact) first = 0;
+  for (uint32_t i = 0; i < impact_count; ++i) link(impacts[i], i + 1);
   return true;
 }
 #else
@@ -418,17 +448,18 @@ bool ImpactStage::find_first_shared() { return false; }
 
 void ImpactStage::find_first() {
   if (settings.team == nullptr || !find_first_shared()) test_all_at_start(*this, known.pairs);
-  uint32_t moving = 0;
+  uint32_t moving_count = 0;
   bodies.active.for_each([&](uint32_t a) {
-    ++moving;
-    if ((bodies.sweeps[a].marks & k_mark_left_bounds) == 0) return;
+    ++moving_count;
+    if ((sweep_of(a).marks & k_mark_left_bounds) == 0) return;
     for_each_near(*this, a, [&](uint32_t b) {
-      if (b < a && (bodies.sweeps[b].marks & k_mark_left_bounds) != 0) return;
+      if (b < a && (sweep_of(b).marks & k_mark_left_bounds) != 0) return;
       const uint64_t key = key_of_pair(a, b);
       if (!has_pair(known.pairs, key)) test_at_start(*this, key, find_contacts(known.contacts, key));
     });
   });
-  work_left = k_impact_work_min + k_impact_work_times * (moving + report.tests + report.skipped + report.kept_apart);
+  work_left =
+      k_impact_work_min + k_impact_work_times * (moving_count + report.tests + report.skipped + report.kept_apart);
 #if DETENT_SPARSE
   if (probe != nullptr) probe->use.budget = work_left - k_impact_work_min;
 #endif
@@ -438,8 +469,8 @@ void ImpactStage::test_all_changed(Fraction time) {
   while (changed_count != 0) {
     const uint32_t first = changed_first;
     changed_first = UINT32_MAX;
-    bodies.active.while_each(first, [&](uint32_t slot) {
-      if ((bodies.sweeps[slot].marks & k_mark_changed) != 0) test_changed(*this, slot, time);
+    changeable().while_each(first, [&](uint32_t slot) {
+      if ((sweep_of(slot).marks & k_mark_changed) != 0) test_changed(*this, slot, time);
       return changed_count != 0;
     });
   }

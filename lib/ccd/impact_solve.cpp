@@ -91,14 +91,20 @@ Position point_of(const ContactGeometry& geometry, const BodyPose& pose_a, const
 }
 void wake(ImpactStage& stage, uint32_t slot) {
   if (stage.bodies.activities[slot].asleep == 0) return;
-  stage.bodies.sweeps[slot].marks |= k_mark_slept;
+#if DETENT_TASKS
+  if (stage.warp != nullptr) {
+    stage.warp->fail();
+    return;
+  }
+#endif
+  stage.sweep_of(slot).marks |= k_mark_slept;
   stage.report.woke += wake_all_with(slot, stage.bodies.activities, stage.bodies.active);
 }
 
 /// The velocity that gravity adds to a body in the part of the tick after `time`.
 Vec3<Real> fall_after(const ImpactStage& stage, uint32_t slot, Fraction time) {
   const BodyProperties& properties = stage.bodies.properties[slot];
-  if (!is_dynamic(properties) || (stage.bodies.sweeps[slot].marks & k_mark_slept) != 0) return k_zero_vector;
+  if (!is_dynamic(properties) || (stage.sweep_of(slot).marks & k_mark_slept) != 0) return k_zero_vector;
   const Vec3<Real> fall = stage.settings.gravity * stage.settings.tick_time;
   bool saturated = false;
   const Vec3<Real> own = {multiply(fall.x, properties.gravity_scale, saturated),
@@ -115,7 +121,7 @@ Real bend_speed(const ImpactStage& stage, const ImpactPair& pair) {
     const BodyProperties& properties = stage.bodies.properties[slot];
     return real_from_unit(properties.bounding_radius, properties.size_exponent);
   };
-  const BodySweep &sweep_a = stage.bodies.sweeps[a], &sweep_b = stage.bodies.sweeps[b];
+  const BodySweep &sweep_a = stage.sweep_of(a), &sweep_b = stage.sweep_of(b);
   constexpr Real k_angle_max = 2.0;  // a larger rotation moves the points apart again
   const Real angle_a = min(length(sweep_a.rotation_vector), k_angle_max),
              angle_b = min(length(sweep_b.rotation_vector), k_angle_max);
@@ -153,8 +159,8 @@ bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geo
   const uint32_t a = pair_low(pair.key), b = pair_high(pair.key);
   const BodyProperties &properties_a = stage.bodies.properties[a], &properties_b = stage.bodies.properties[b];
   stage.take_work(1);
-  const BodyMotion before_a = motion_of_sweep(properties_a, pose_a.rotation, stage.bodies.sweeps[a], stage.tick_rate);
-  const BodyMotion before_b = motion_of_sweep(properties_b, pose_b.rotation, stage.bodies.sweeps[b], stage.tick_rate);
+  const BodyMotion before_a = motion_of_sweep(properties_a, pose_a.rotation, stage.sweep_of(a), stage.tick_rate);
+  const BodyMotion before_b = motion_of_sweep(properties_b, pose_b.rotation, stage.sweep_of(b), stage.tick_rate);
   ContactWork contact;
   contact.state = {};
   contact.state.point_count = static_cast<uint8_t>(geometry.count);
@@ -186,15 +192,15 @@ bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geo
                           clamp_angular_velocity(properties_b, pose_b.rotation, after_b);
   const auto change_sweep = [&](uint32_t slot, const BodyPose& pose, const BodyMotion& before,
                                 const BodyMotion& after) {
-    if (!stage.dynamic(slot) || (stage.bodies.sweeps[slot].marks & k_mark_stopped) != 0) return;
+    if (!stage.dynamic(slot) || (stage.sweep_of(slot).marks & k_mark_stopped) != 0) return;
     stage.report.clamped += add_to_sweep(stage.bodies.properties[slot], pose.rotation, before, after,
-                                         stage.settings.tick_time, stage.bodies.sweeps[slot]);
+                                         stage.settings.tick_time, stage.sweep_of(slot));
   };
   change_sweep(a, pose_a, before_a, after_a);
   change_sweep(b, pose_b, before_b, after_b);
 
   const Vec3<Real> fall_a = fall_after(stage, a, pair.time), fall_b = fall_after(stage, b, pair.time);
-  BodyMotion motion_a = stage.bodies.motions[a], motion_b = stage.bodies.motions[b];
+  BodyMotion motion_a = stage.motion_of(a), motion_b = stage.motion_of(b);
   motion_a.linear_velocity -= fall_a;
   motion_b.linear_velocity -= fall_b;
   Real approach_of_state = k_zero;
@@ -205,19 +211,16 @@ bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geo
     motion_b.linear_velocity += fall_b;
     stage.report.clamped += clamp_angular_velocity(properties_a, pose_a.rotation, motion_a) +
                             clamp_angular_velocity(properties_b, pose_b.rotation, motion_b);
-    if (stage.dynamic(a)) stage.bodies.motions[a] = motion_a;
-    if (stage.dynamic(b)) stage.bodies.motions[b] = motion_b;
+    if (stage.dynamic(a)) stage.motion_of(a) = motion_a;
+    if (stage.dynamic(b)) stage.motion_of(b) = motion_b;
   }
 
   if (again) return true;
   stage.first_approach = approach;
   ++stage.report.impacts;
   if (pair.impacts < UINT8_MAX) ++pair.impacts;
-  if (stage.report.hits < stage.hits.count)
-    stage.hits[stage.report.hits++] = {
-        pair.key, pair.time, point_of(geometry, pose_a, pose_b, properties_a, properties_b), geometry.normal, approach};
-  else
-    ++stage.report.hits_dropped;
+  stage.add_hit(
+      {pair.key, pair.time, point_of(geometry, pose_a, pose_b, properties_a, properties_b), geometry.normal, approach});
   return true;
 }
 
@@ -260,6 +263,19 @@ bool collide_again(ImpactStage& stage, ImpactPair& pair, Fraction time) {
 }
 
 }  // namespace
+
+void ImpactStage::add_hit(const ImpactHit& hit) {
+#if DETENT_TASKS
+  if (warp != nullptr) {
+    warp->add_output(hit);
+    return;
+  }
+#endif
+  if (report.hits < hits.count)
+    hits[report.hits++] = hit;
+  else
+    ++report.hits_dropped;
+}
 
 bool ImpactStage::resolve(ImpactPair& pair, bool undecided, const BodyPose& pose_a, const BodyPose& pose_b) {
   ContactGeometry geometry;

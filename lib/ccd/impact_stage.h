@@ -1,13 +1,16 @@
 #pragma once
 #include "broad_phase/pair_key.h"
+#include "ccd/event_heads.h"
 #include "ccd/impact.h"
 #include "ccd/impact_pair.h"
+#include "ccd/moving_tree.h"
+#include "ccd/warp_group.h"
 #include "motion/angular_velocity.h"
 #include "shape/shape_properties.h"
 
 /// Declarations that the files of continuous collision share. impact.cpp processes the impacts in the order of their
-/// times. impact_search.cpp finds when pairs collide. impact_solve.cpp resolves impacts. impact_sweeps.cpp updates the
-/// sweeps of the bodies.
+/// times; time_warp.cpp processes them in groups. impact_search.cpp finds when pairs collide. impact_solve.cpp resolves
+/// impacts. impact_sweeps.cpp updates the sweeps of the bodies.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -28,20 +31,23 @@ inline constexpr uint32_t k_mark_moved = 32;       ///< the body was active when
 inline constexpr uint32_t k_mark_sliver = BodySweep::k_mark_sliver;
 static_assert(k_mark_moved < k_mark_sliver && k_mark_sliver < k_mark_jointed);
 
-/// The pairs whose search finds anything at the start of the tick, while several threads search for them.
-struct FoundPairs {
-  Span<ImpactPair> pairs;  ///< their keys
-  uint32_t count = 0;
-  /// Not 0 if there are too many pairs, or if a body must be stopped: the pairs must then be searched in order.
-  uint32_t in_order = 0;
-  ImpactReport report = {};  ///< of the pairs without an impact
+#if DETENT_TASKS
+/// The numbers of a report that threads count on their own.
+inline constexpr uint32_t ImpactReport::*k_impact_numbers[] = {
+    &ImpactReport::impacts, &ImpactReport::undecided, &ImpactReport::overlaps_left, &ImpactReport::bodies_stopped,
+    &ImpactReport::tests,   &ImpactReport::skipped,   &ImpactReport::kept_apart,    &ImpactReport::clamped};
 
-  void add(uint64_t key, bool is_stopped) {
+/// The entries in `impacts` at the start of the tick, while several threads make them.
+struct FoundPairs {
+  Span<ImpactPair> pairs;
+  uint32_t count = 0;  ///< more than there is room for: the pairs must then be searched in order
+
+  ImpactPair* take() {
     const uint32_t place = Team::take(count, 1);
-    if (place < pairs.count) pairs[place].key = key;
-    if (place >= pairs.count || is_stopped) Team::take(in_order, 1);
+    return place < pairs.count ? &pairs[place] : nullptr;
   }
 };
+#endif
 
 /// The state of the stage during a tick.
 struct ImpactStage {
@@ -61,12 +67,40 @@ struct ImpactStage {
   Real first_approach = 0.0;   ///< closing speed of the impact that is being resolved, m/s
   ImpactReport report = {};
 #if DETENT_TASKS
-  FoundPairs* found = nullptr;  ///< not null: test() only lists the pair, if its search finds anything
-#else
-  static constexpr FoundPairs* found = nullptr;
+  SpareMemory spare = {bodies.spare};
+  MovingTree moving = {};
+  EventHeads heads = {};
+  FoundPairs* found = nullptr;  ///< not null: several threads make entries
+  WarpRun* warp = nullptr;      ///< not null: this is a group of Time Warp, which sees its own copies of bodies
 #endif
 
-  SweptBody body(uint32_t slot) const { return {bodies.properties[slot], bodies.poses[slot], bodies.sweeps[slot]}; }
+  // The bodies at the present point of the tick.
+  BodyPose& pose_of(uint32_t slot) const { return own_of(slot) ? own_of(slot)->pose : bodies.poses[slot]; }
+  BodyMotion& motion_of(uint32_t slot) const { return own_of(slot) ? own_of(slot)->motion : bodies.motions[slot]; }
+  BodySweep& sweep_of(uint32_t slot) const { return own_of(slot) ? own_of(slot)->sweep : bodies.sweeps[slot]; }
+  ImpactPath& path_of(uint32_t slot) const { return own_of(slot) ? own_of(slot)->path : bodies.paths[slot]; }
+  Bounds& bounds_of(uint32_t slot) const { return own_of(slot) ? own_of(slot)->bounds : bodies.bounds[slot]; }
+  uint32_t& first_impact_of(uint32_t slot) const {
+    return own_of(slot) ? own_of(slot)->first_impact : bodies.first_impact[slot];
+  }
+#if DETENT_TASKS
+  WarpBody* own_of(uint32_t slot) const { return warp == nullptr ? nullptr : warp->body(slot); }
+  const BitSet& candidates() const { return warp == nullptr ? bodies.candidates : warp->part.candidates; }
+  /// The bodies that may have k_mark_changed.
+  const BitSet& changeable() const { return warp == nullptr ? bodies.active : warp->part.own; }
+  /// A group has copies of all bodies of its entries.
+  bool may_have_entries(uint32_t slot) const { return warp == nullptr || warp->body(slot) != nullptr; }
+  /// Whether a group has met what only the global order can do. Its result is discarded.
+  bool gives_up() const { return warp != nullptr && warp->has_failed(); }
+#else
+  static constexpr const void* found = nullptr;
+  static constexpr WarpBody* own_of(uint32_t) { return nullptr; }
+  const BitSet& candidates() const { return bodies.candidates; }
+  const BitSet& changeable() const { return bodies.active; }
+  static constexpr bool may_have_entries(uint32_t) { return true; }
+  static constexpr bool gives_up() { return false; }
+#endif
+  SweptBody body(uint32_t slot) const { return {bodies.properties[slot], pose_of(slot), sweep_of(slot)}; }
   bool dynamic(uint32_t slot) const { return is_dynamic(bodies.properties[slot]); }
   /// Whether pairs that cannot collide are skipped.
   bool filters() const { return probe == nullptr || probe->filters; }
@@ -76,23 +110,38 @@ struct ImpactStage {
   /// Visits the entries in `impacts` of a dynamic body: its pairs with a coming impact, and those that have had one.
   template <class Visit>
   void for_each_impact(uint32_t slot, const Visit& visit) const {
-    if (impact_count == 0) return;
-    for (uint32_t at = bodies.first_impact[slot]; at != 0;) {
+    if (impact_count == 0 || !may_have_entries(slot)) return;
+    for (uint32_t at = first_impact_of(slot); at != 0;) {
       ImpactPair& pair = impacts[at - 1];
       at = pair.more[pair_high(pair.key) == slot ? 1 : 0];
       visit(pair);
     }
+  }
+  /// To be called when the event of an entry in `impacts` has changed.
+  void touch([[maybe_unused]] const ImpactPair& pair) {
+#if DETENT_TASKS
+    heads.touch(static_cast<uint32_t>(&pair - impacts.data));
+#endif
   }
   /// The smaller body's smallest diameter, m.
   Real extent_of(uint64_t key) const {
     return min(shape_extent(bodies.properties[pair_low(key)]), shape_extent(bodies.properties[pair_high(key)]));
   }
 
+#if DETENT_TASKS
+  // impact.cpp
+
+  /// Processes all events in the order of their times, ties by the lower key.
+  void process_events();
+#endif
+
   // impact_sweeps.cpp
 
   /// Computes the bounds of the sweeps, and marks the sweeps that leave the bounds that the pairs were found with.
   void start_sweeps();
   void start_sweep(uint32_t slot);
+  /// Adds the body to the moving bodies and removes it from the tree of resting ones.
+  void leave_rest(uint32_t slot);
   /// Moves the body to `time` along its sweep. The sweep starts again there, with the same velocity.
   void move_to(uint32_t slot, Fraction time);
   /// Updates the bounds of a body whose sweep has changed, marks it for testing and discards its coming impacts. The
@@ -112,9 +161,21 @@ struct ImpactStage {
   /// for an impact, or if the pair would pass through. `shrink_depth`: the first shrink depth, m. `entry`: the pair's
   /// entry in `impacts`, or null.
   void test(uint64_t key, Fraction time, Real shrink_depth, ImpactPair* entry);
+  /// Makes the entry of a pair in `impacts`. Returns null if there is no room.
+  ImpactPair* add_entry(uint64_t key);
+#if DETENT_TASKS
+  /// Makes room for an entry of a group, and copies of its dynamic bodies. Returns false if there is no memory.
+  bool make_room_for(uint64_t key);
+#endif
+  /// Adds an entry to the lists of its dynamic bodies. `place`: its index + 1.
+  void link(ImpactPair& entry, uint32_t place) const;
   /// As the first part of find_first(): the pairs in `known`. Several threads search. Returns false, and changes
   /// nothing, if the pairs must be searched in order.
   bool find_first_shared();
+#if DETENT_TASKS
+  /// Tests the new sweep of a body against another body, if their bounds overlap and they may touch.
+  void test_if_near(uint32_t slot, uint32_t other, Fraction time);
+#endif
   /// Tests the sweeps that have changed against all other bodies.
   void test_all_changed(Fraction time);
   /// Whether the solver pushed the pair apart in this tick.
@@ -122,6 +183,7 @@ struct ImpactStage {
 
   // impact_solve.cpp
 
+  void add_hit(const ImpactHit& hit);
   /// Separates the bodies of a pair. The bodies must be at the time of the impact. Returns true, with both sweeps
   /// unchanged, if the bodies collide at a seam and the shrink depth of the pair was not increased yet.
   bool resolve(ImpactPair& pair, bool undecided, const BodyPose& pose_a, const BodyPose& pose_b);
@@ -130,6 +192,12 @@ struct ImpactStage {
   /// be hit back and forth without end. The pairs are processed in the order of their keys.
   void pass_on(const ImpactPair& first, Fraction time);
 };
+
+#if DETENT_TASKS
+/// As ImpactStage::process_events(), in groups. Returns false, and changes no body, if the events must be processed in
+/// the global order.
+bool process_in_groups(ImpactStage& stage, ImpactOrder order, WarpCount& count);
+#endif
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -38,14 +38,24 @@ Bounds bounds_over(const BodyProperties& properties, const BodyPose& pose, const
 }
 
 /// Computes the bounds of the body's sweep from now on, and records the sweep in the probe.
-void begin_sweep(const ImpactStage& stage, uint32_t slot) {
-  const BodySweep& sweep = stage.bodies.sweeps[slot];
+void begin_sweep(ImpactStage& stage, uint32_t slot) {
+  const BodySweep& sweep = stage.sweep_of(slot);
   const Sweep rest = rest_of(sweep, sweep.from);
-  const BodyPose& pose = stage.bodies.poses[slot];
-  stage.bodies.bounds[slot] = bounds_over(stage.bodies.properties[slot], pose, rest);
+  const BodyPose& pose = stage.pose_of(slot);
+#if DETENT_TASKS
+  if (stage.warp == nullptr) stage.moving.remove(slot, stage.bodies.bounds);
+#endif
+  stage.bounds_of(slot) = bounds_over(stage.bodies.properties[slot], pose, rest);
+#if DETENT_TASKS
+  if (WarpBody* const own = stage.own_of(slot)) {
+    include(own->bounds, own->reach);
+    return;
+  }
+  stage.moving.insert(slot, stage.bodies.bounds);
+#endif
   if (stage.probe == nullptr) return;
 #if DETENT_SPARSE
-  if (stage.probe->reach.count != 0) include(stage.bodies.bounds[slot], stage.probe->reach[slot]);
+  if (stage.probe->reach.count != 0) include(stage.bounds_of(slot), stage.probe->reach[slot]);
   if (stage.probe->segments.count == 0) return;
 #endif
   const uint32_t at = stage.probe->segment_count++;
@@ -64,16 +74,10 @@ void end_segment(const BodyProperties& properties, const BodySweep& sweep, Fract
   path.bound += swing_bound(properties, part.rotation_vector);
 }
 
-/// Adds the body to the moving bodies and removes it from the tree of resting ones.
-void leave_rest(const ImpactStage& stage, uint32_t slot) {
-  stage.bodies.active.set(slot);
-  if (stage.bodies.resting.has(slot)) stage.bodies.resting.remove(slot);
-}
-
 /// The rotation at the end of the tick, with the current sweep.
 Quat end_rotation(const ImpactStage& stage, uint32_t slot) {
-  const BodySweep& sweep = stage.bodies.sweeps[slot];
-  return sweep_end_rotation(stage.bodies.poses[slot].rotation, rest_of(sweep, sweep.from));
+  const BodySweep& sweep = stage.sweep_of(slot);
+  return sweep_end_rotation(stage.pose_of(slot).rotation, rest_of(sweep, sweep.from));
 }
 
 }  // namespace
@@ -86,65 +90,87 @@ void ImpactStage::start_sweeps() {
 }
 
 void ImpactStage::start_sweep(uint32_t slot) {
-  BodySweep& sweep = bodies.sweeps[slot];
+  BodySweep& sweep = sweep_of(slot);
   sweep.marks |= k_mark_moved;
   if (is_non_colliding(bodies.properties[slot])) {
     begin_sweep(*this, slot);
     return;
   }
   if (!is_at_rest(sweep)) {
-    const Bounds found_by = bodies.bounds[slot];
+    const Bounds found_by = bounds_of(slot);
     begin_sweep(*this, slot);
-    if (!holds(found_by, bodies.bounds[slot])) sweep.marks |= k_mark_left_bounds;
-    bodies.paths[slot].bound = motion_bound(body(slot), sweep.from);
+    if (!holds(found_by, bounds_of(slot))) sweep.marks |= k_mark_left_bounds;
+    path_of(slot).bound = motion_bound(body(slot), sweep.from);
   }
   if (!filters() || !known.complete) sweep.marks |= k_mark_left_bounds;
 }
 
+void ImpactStage::leave_rest(uint32_t slot) {
+  bodies.active.set(slot);
+  if (bodies.resting.has(slot)) bodies.resting.remove(slot);
+#if DETENT_TASKS
+  moving.insert(slot, bodies.bounds);
+#endif
+}
+
 void ImpactStage::move_to(uint32_t slot, Fraction time) {
-  leave_rest(*this, slot);
-  BodySweep& sweep = bodies.sweeps[slot];
+#if DETENT_TASKS
+  if (WarpBody* const own = own_of(slot))
+    own->move(time);
+  else
+#endif
+    leave_rest(slot);
+  BodySweep& sweep = sweep_of(slot);
   const bool hit = (sweep.marks & k_mark_hit) != 0;
   sweep.marks |= k_mark_hit;
   // The solver's angular momentum is that at the end of the tick. After a hit it is that at the body's current pose.
-  const Quat from = hit ? bodies.poses[slot].rotation : end_rotation(*this, slot);
-  end_segment(bodies.properties[slot], sweep, time, !hit, bodies.paths[slot]);
+  const Quat from = hit ? pose_of(slot).rotation : end_rotation(*this, slot);
+  end_segment(bodies.properties[slot], sweep, time, !hit, path_of(slot));
   if (time > sweep.from) {
     if (bodies.listener.ended != nullptr) bodies.listener.ended(bodies.listener.context, slot, time);
-    bodies.poses[slot] = pose_at(body(slot), time);
+    pose_of(slot) = pose_at(body(slot), time);
   }
   sweep.from = time;
-  Vec3<Real>& angular_momentum = bodies.motions[slot].angular_momentum;
-  angular_momentum =
-      carried_angular_momentum(bodies.properties[slot], from, bodies.poses[slot].rotation, angular_momentum);
+  Vec3<Real>& angular_momentum = motion_of(slot).angular_momentum;
+  angular_momentum = carried_angular_momentum(bodies.properties[slot], from, pose_of(slot).rotation, angular_momentum);
 }
 
 void ImpactStage::finish_momentum() {
   bodies.active.for_each([&](uint32_t slot) {
-    if ((bodies.sweeps[slot].marks & k_mark_hit) == 0) return;
-    Vec3<Real>& angular_momentum = bodies.motions[slot].angular_momentum;
-    angular_momentum = carried_angular_momentum(bodies.properties[slot], bodies.poses[slot].rotation,
+    if ((sweep_of(slot).marks & k_mark_hit) == 0) return;
+    Vec3<Real>& angular_momentum = motion_of(slot).angular_momentum;
+    angular_momentum = carried_angular_momentum(bodies.properties[slot], pose_of(slot).rotation,
                                                 end_rotation(*this, slot), angular_momentum);
   });
 }
 
 void ImpactStage::change(uint32_t slot) {
-  BodySweep& sweep = bodies.sweeps[slot];
+  BodySweep& sweep = sweep_of(slot);
   begin_sweep(*this, slot);
   if ((sweep.marks & k_mark_changed) == 0) ++changed_count;
   changed_first = slot < changed_first ? slot : changed_first;
   sweep.marks |= k_mark_changed;
-  for_each_impact(slot, [](ImpactPair& pair) { pair.next = k_next_none; });
+  for_each_impact(slot, [this](ImpactPair& pair) {
+    pair.next = k_next_none;
+    touch(pair);
+  });
 }
 
 void ImpactStage::stop(uint32_t slot, Fraction time) {
-  BodySweep& sweep = bodies.sweeps[slot];
+  BodySweep& sweep = sweep_of(slot);
   if (!dynamic(slot) || (sweep.marks & k_mark_stopped) != 0) return;
   move_to(slot, time);
   sweep.displacement = sweep.rotation_vector = k_zero_vector;
   sweep.marks |= k_mark_stopped;
   ++report.bodies_stopped;
-  report.lost_time += sweep_part({{Real(1.0), k_zero, k_zero}, k_zero_vector}, k_whole_step - time).displacement.x;
+  const Real lost = sweep_part({{Real(1.0), k_zero, k_zero}, k_zero_vector}, k_whole_step - time).displacement.x;
+#if DETENT_TASKS
+  if (warp != nullptr) own_of(slot)->moved_untested = 1;
+  if (warp != nullptr)
+    warp->add_output({0, time, {}, {}, lost});
+  else
+#endif
+    report.lost_time += lost;
   change(slot);
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/bit_set.h"
 #include "base/span.h"
+#include "base/team.h"
 #include "state/view.h"
 
 namespace detent {
@@ -66,6 +67,15 @@ inline Scratch scratch_of(uint8_t* block, const Layout& layout, Capacity capacit
           {at_offset<uint64_t>(block, layout.sensed_passed), capacity.sensed},
           {{at_offset<uint32_t>(block, layout.changed), capacity.sensed == 0 ? 0 : slot_words(capacity.bodies)}}};
 }
+
+#if DETENT_TASKS
+/// The rest of the memory that impacts share with the work space of the substeps.
+inline Span<uint64_t> impact_spare(uint8_t* block, const Layout& layout, Capacity capacity) {
+  const uint64_t start = (layout.impact_paths + uint64_t{sizeof(ImpactPath)} * capacity.bodies + 7) / 8;
+  return {at_offset<uint64_t>(block, static_cast<uint32_t>(8 * start)),
+          static_cast<uint32_t>(layout.manifold_work / 8 - start)};
+}
+#endif
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -403,19 +403,22 @@ __attribute__((noinline)) void Step::advance_bodies() {
                          overflow_};
   if (state_.world.continuous != 0) {
     const ImpactPairs known = {pool_.pairs(), contacts_, pool_.dropped() == 0 && count_.dropped == 0, disabled_pairs_};
-    const ImpactBodies bodies = {bodies_.properties,
-                                 state_.poses.first(used_),
-                                 solver_bodies_.motions,
-                                 sweeps_,
-                                 scratch_.impact_paths.first(used_),
-                                 bodies_.activities,
-                                 cache_.bounds,
-                                 cache_.tree,
-                                 cache_.active,
-                                 scratch_.candidates,
-                                 scratch_.moving_bodies.first(used_),
-                                 world_.hooks.filter_rules,
-                                 {sensor_ops_ == nullptr ? nullptr : sensor_ops_->sweep, &sensors}};
+    ImpactBodies bodies = {bodies_.properties,
+                           state_.poses.first(used_),
+                           solver_bodies_.motions,
+                           sweeps_,
+                           scratch_.impact_paths.first(used_),
+                           bodies_.activities,
+                           cache_.bounds,
+                           cache_.tree,
+                           cache_.active,
+                           scratch_.candidates,
+                           scratch_.moving_bodies.first(used_),
+                           world_.hooks.filter_rules,
+                           {sensor_ops_ == nullptr ? nullptr : sensor_ops_->sweep, &sensors}};
+#if DETENT_TASKS
+    bodies.spare = impact_spare(world_.block, state_.layout, capacity_of(state_.header));
+#endif
     with_team(unless_ruled(pool_.pairs().count), [&](Team* team) {
       const ImpactReport impacts =
           world_.features->continuous->advance(shared_settings(settings_, team), world_.hooks.assets, *world_.features,

@@ -102,7 +102,8 @@ DETENT_SHARED constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.islands = place(sizeof(Island), capacity.bodies);
   layout.island_bodies = place(sizeof(uint32_t), capacity.bodies);
   layout.sweeps = place(sizeof(BodySweep), capacity.bodies);
-  // After the sweeps are made, the impacts use the same memory as the work space of the substeps.
+  // After the sweeps are made, the impacts use the same memory as the work space of the substeps. The rest of it, up to
+  // manifold_work, is spare memory for them (step_scratch.h).
   const uint64_t moved = end;
   layout.body_work = place(sizeof(BodyWork), capacity.bodies);
   layout.contact_order = place(sizeof(ContactOrder), capacity.contacts);

@@ -23,6 +23,10 @@ constexpr const char* k_help =
             loop and a group of loops cost what they cost here, a loop once for each doubling of the threads
 Then, of the scene S4-rays, rays of 10 m through the heap of S4, awake and asleep, in thousands a second (least time of 51): a
 call for each ray, and batches on 1, 2 and more threads.
+Then, of the scenes break-1000, impacts-S8, fast-5000, fast-5000-sparse and rocks-300, the stage advance in each order of the
+impacts (docs/threads.md): mean ms in ticks with an impact; how many times as fast as the global order on one thread it is,
+measured and computed as above; and of Time Warp the ticks for which groups were tried, runs of groups, runs that were
+rolled back, rounds, and ticks that returned to the global order.
 All digests are compared: exit code 1 if one differs.)";
 
 constexpr uint32_t k_bounds[] = {2, 4, 8, 16, 32, 64};
@@ -73,6 +77,42 @@ nlohmann::ordered_json report(const ScalingRow& row, const std::vector<uint32_t>
     printf("%6.2f", times);
   }
   printf("%s\n", row.same ? "" : "  DIGESTS DIFFER");
+  fflush(stdout);
+  return json;
+}
+
+nlohmann::ordered_json report(const ImpactRow& row, const ImpactRow& global, const std::vector<uint32_t>& threads,
+                              const SharingCost& cost) {
+  nlohmann::ordered_json json = {{"config", row.config},
+                                 {"scene", row.scene},
+                                 {"order", row.order},
+                                 {"impacts", row.impacts},
+                                 {"one_thread_ms", row.measured[0] / 1e6},
+                                 {"warp_ticks", row.warp_ticks},
+                                 {"speculations", row.speculations},
+                                 {"rollbacks", row.rollbacks},
+                                 {"rounds", row.rounds},
+                                 {"returns", row.returns},
+                                 {"same", row.same}};
+  printf("%-5s %-17s %-12s %7u %8.3f ", row.config.c_str(), row.scene.c_str(), row.order.c_str(), row.impacts,
+         row.measured[0] / 1e6);
+  for (size_t i = 1; i < threads.size(); ++i) {
+    const double times = global.measured[0] / row.measured[i];
+    json["measured"][std::to_string(threads[i])] = times;
+    printf("%6.2f", times);
+  }
+  printf("  ");
+  double alone = 0;
+  for (const TickRecord& tick : global.ticks) alone += tick.ns;
+  for (const uint32_t count : k_bounds) {
+    double shared = 0;
+    for (const TickRecord& tick : row.ticks) shared += scheduled_ns(tick, count, cost);
+    const double times = shared > 0 ? alone / shared : 0;
+    json["bound"][std::to_string(count)] = times;
+    printf("%6.2f", times);
+  }
+  printf(" %6u %7u %6u %5u %4u%s\n", row.warp_ticks, row.speculations, row.rollbacks, row.rounds, row.returns,
+         row.same ? "" : "  DIGESTS DIFFER");
   fflush(stdout);
   return json;
 }
@@ -139,6 +179,21 @@ int run_scaling(const ScalingOptions& options) {
     for (const RayRow& row : engine.measure_rays(rays, threads)) {
       same = same && row.same;
       rows.push_back(report(row, threads));
+    }
+  }
+  printf(
+      "impacts: order, number, ms; times as fast as the global order on one thread; ticks in groups, runs, rolled "
+      "back, "
+      "rounds, returns\n");
+  for (const char* scene : k_impact_scenes) {
+    if (!is_wanted(options.scenes, scene)) continue;
+    for (const ScalingEngine& engine : all_scaling_engines()) {
+      if (!is_wanted(options.configs, engine.config)) continue;
+      const std::vector<ImpactRow> all = engine.measure_impacts(scene, threads);
+      for (const ImpactRow& row : all) {
+        same = same && row.same;
+        rows.push_back(report(row, all[0], threads, cost));
+      }
     }
   }
   if (!same) fprintf(stderr, "bench: digests differ\n");

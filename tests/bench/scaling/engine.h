@@ -46,6 +46,17 @@ struct RayRow {
   bool same = true;              ///< whether all answers were equal
 };
 
+/// The stage `advance` of a scene with impacts, in one order of the impacts.
+struct ImpactRow {
+  std::string config, scene, order;
+  uint32_t impacts = 0;           ///< in all ticks
+  std::vector<TickRecord> ticks;  ///< the stage alone, in the ticks with an impact, recorded on one thread
+  std::vector<double> measured;   ///< mean ns of the stage in these ticks, for each of the numbers of threads
+  uint32_t warp_ticks = 0, speculations = 0, rollbacks = 0, rounds = 0, returns = 0;  ///< WarpCount
+  uint64_t last = 0;                                                                  ///< last digest
+  bool same = true;  ///< whether all digests were equal
+};
+
 /// What sharing costs on this machine, ns.
 struct SharingCost {
   double loop = 0;   ///< a loop of two parts on two threads takes so much longer than one part
@@ -57,7 +68,11 @@ struct ScalingEngine {
   std::function<ScalingRow(const ScalingScene& scene, const std::vector<uint32_t>& threads)> measure;
   /// With the scene's bodies awake, and put to sleep; with few rays and with many.
   std::function<std::vector<RayRow>(const ScalingScene& scene, const std::vector<uint32_t>& threads)> measure_rays;
+  /// A scene of k_impact_scenes in each order.
+  std::function<std::vector<ImpactRow>(const std::string& scene, const std::vector<uint32_t>& threads)> measure_impacts;
 };
+inline constexpr const char* k_impact_scenes[] = {"break-1000", "impacts-S8", "fast-5000", "fast-5000-sparse",
+                                                  "rocks-300"};
 using ScalingEngineList = std::vector<ScalingEngine>;
 
 /// Every configuration of this build.

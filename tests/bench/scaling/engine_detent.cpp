@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "tests/bench/scaling/impacts.h"
 #include "tests/bench/scaling/rays.h"
+#include "tests/bench/scaling/recorded.h"
 #include "tests/bench/scaling/settled.h"
 #include "tests/bench/timer.h"
 #include "threads/thread_pool.h"
@@ -14,37 +16,6 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 using namespace detent_bench;
-
-/// Records the parts of the loops of a tick, which one thread runs one after the other.
-class Recorded {
- public:
-  Tasks tasks() {
-    probe_ = {nullptr, loop_begins, nullptr, part_begins, part_ends, this};
-    Tasks tasks;
-    tasks.run = run;
-    tasks.context = this;
-    tasks.workers = 2;
-    tasks.probe = &probe_;
-    return tasks;
-  }
-  TickRecord tick;
-
- private:
-  static Recorded& self(void* context) { return *static_cast<Recorded*>(context); }
-  static void run(void* context, uint32_t count, void (*task)(void*), void* argument) {
-    ++self(context).tick.groups;
-    for (uint32_t i = 0; i < count; ++i) task(argument);
-  }
-  static void loop_begins(void* context, uint32_t) { self(context).tick.loops.push_back({}); }
-  static void part_begins(void* context) { self(context).start_ = monotonic_ns(); }
-  static void part_ends(void* context) {
-    Recorded& recorded = self(context);
-    recorded.tick.loops.back().parts.push_back(static_cast<double>(monotonic_ns() - recorded.start_));
-  }
-
-  TaskProbe probe_;
-  uint64_t start_ = 0;
-};
 
 ScalingRow measure(const ScalingScene& scene, const std::vector<uint32_t>& threads) {
   ScalingRow row;
@@ -80,7 +51,7 @@ ScalingRow measure(const ScalingScene& scene, const std::vector<uint32_t>& threa
 }  // namespace
 
 void add_scaling_engine(ScalingEngineList& engines) {
-  engines.push_back({stress_engine().config, measure, measure_rays});
+  engines.push_back({stress_engine().config, measure, measure_rays, measure_impacts});
 }
 
 }  // namespace DETENT_NAMESPACE
