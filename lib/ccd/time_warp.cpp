@@ -75,9 +75,9 @@ constexpr uint32_t k_warp_parts_max = 64;
 /// Rounds after which the global order is used. Each round costs at most as much as that.
 constexpr uint32_t k_warp_rounds_max = 4;
 
-/// The range of all sweeps of a changed body along one axis.
+/// The bounds of all sweeps of a changed body.
 struct WarpRange {
-  int64_t lower, upper;
+  Bounds bounds;
   uint32_t group, body;
 };
 
@@ -310,11 +310,6 @@ class TimeWarp {
     const Span<Bounds> start = stage_.bodies.bounds;
     return overlap(a.reach, b.reach) || overlap(a.reach, start[b.slot]) || overlap(b.reach, start[a.slot]);
   }
-  Bounds whole_reach(const WarpBody& body) const {
-    Bounds bounds = stage_.bodies.bounds[body.slot];
-    include(body.reach, bounds);
-    return bounds;
-  }
   /// Lists the changed bodies of all groups in `ranges_`. Merges groups that have copies of the same body.
   void list_changed() {
     for (uint32_t& group : groups_of_) group = WarpGroup::k_none;
@@ -329,8 +324,10 @@ class TimeWarp {
         else
           merge(owner, i);
         if (body.changed == 0) continue;
-        ranges_.data[ranges_.count++] = {0, 0, i, k};
-        include(whole_reach(body), all);
+        WarpRange& range = ranges_.data[ranges_.count++];
+        range = {stage_.bodies.bounds[body.slot], i, k};
+        include(body.reach, range.bounds);
+        include(range.bounds, all);
       }
     }
     const auto length = [&](int axis) {
@@ -339,12 +336,9 @@ class TimeWarp {
     };
     int widest = 0;
     for (int axis = 1; axis < 3; ++axis) widest = length(axis) > length(widest) ? axis : widest;
-    for (WarpRange& range : ranges_) {
-      const Bounds bounds = whole_reach(groups_[range.group].bodies[range.body]);
-      range.lower = integer_from(bounds.lower.*k_axes[widest]);
-      range.upper = integer_from(bounds.upper.*k_axes[widest]);
-    }
+    axis_ = k_axes[widest];
   }
+
   /// Compares every `part_count_`th range with the ranges after it that overlap it. Merges groups that conflict.
   void compare_some(uint32_t part) {
     PairTests tests(start_, parts_[part]);
@@ -352,16 +346,19 @@ class TimeWarp {
       const WarpRange& range_a = ranges_[i];
       const WarpGroup& group_a = groups_[range_a.group];
       const WarpBody& a = group_a.bodies[range_a.body];
-      for (uint32_t k = i + 1; k < ranges_.count && ranges_[k].lower <= range_a.upper; ++k) {
+      for (uint32_t k = i + 1; k < ranges_.count; ++k) {
         const WarpRange& range_b = ranges_[k];
+        if (range_a.bounds.upper.*axis_ < range_b.bounds.lower.*axis_) break;
+        if (range_a.group == range_b.group || !overlap(range_a.bounds, range_b.bounds)) continue;
         const WarpGroup& group_b = groups_[range_b.group];
         const WarpBody& b = group_b.bodies[range_b.body];
-        if (range_a.group == range_b.group || !may_conflict(a, b) || tests.agree(group_a, a, group_b, b)) continue;
+        if (!may_conflict(a, b) || tests.agree(group_a, a, group_b, b)) continue;
         alone(stage_.settings.team, [&] { merge(range_a.group, range_b.group); });
       }
     }
     for (const auto number : k_impact_numbers) Team::add(correction_.*number, tests.correction.*number);
   }
+
   /// Merges the groups that conflict. `to_run_` becomes the merged groups. Returns false if there are none.
   bool merge_conflicting() {
     uint32_t bodies = 0;
@@ -372,8 +369,9 @@ class TimeWarp {
     }
     range_room_ = bodies > range_room_ ? bodies : range_room_;
     list_changed();
-    heap_sort(ranges_, [](const WarpRange& a, const WarpRange& b) {
-      if (a.lower != b.lower) return a.lower < b.lower;
+    heap_sort(ranges_, [this](const WarpRange& a, const WarpRange& b) {
+      const Coord lower_a = a.bounds.lower.*axis_, lower_b = b.bounds.lower.*axis_;
+      if (!(lower_a == lower_b)) return lower_a < lower_b;
       return a.group < b.group || (a.group == b.group && a.body < b.body);
     });
     correction_ = {};
@@ -462,6 +460,7 @@ class TimeWarp {
   Span<uint32_t> to_run_;  ///< groups
   Span<WarpRange> ranges_;
   uint32_t range_room_ = 0;
+  Coord Position::*axis_ = nullptr;  ///< that along which `ranges_` is sorted
   ImpactReport correction_ = {};
   Span<WarpPart> parts_;
   uint32_t part_count_ = 0;
