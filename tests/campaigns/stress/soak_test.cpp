@@ -148,7 +148,7 @@ constexpr Ending k_endings[] = {{10000, 0x653521b95d58c7e3}, {1000000, 0x53cba34
 #elif defined(DETENT_F32)
 constexpr Ending k_endings[] = {{10000, 0xf91315e711f34042}};
 #else
-constexpr Ending k_endings[] = {{10000, 0x5bbe00ba93e91ab6}};
+constexpr Ending k_endings[] = {{10000, 0x16305920d13f33e6}};
 #endif
 
 /// A million ticks if DETENT_FULL is set.
