@@ -1,4 +1,6 @@
 #pragma once
+#include <detent/detail/scratch.h>
+
 #include "ccd/spare_memory.h"
 
 namespace detent {

@@ -25,7 +25,7 @@ bool MovingShapes::find(const Convex& a, const Convex& b, const Vec3<Unit>& axis
                                 : set_displacements(motion_a_, motion_b_, pair_);
   if (placed != Status::ok) return false;
   placed_ = true;
-  if (until.raw < pair_.to) pair_.to = until.raw + 1;
+  pair_.last = until.raw;
   if (pair_.from > pair_.to) {
     impact = {};
     set_clear(impact);

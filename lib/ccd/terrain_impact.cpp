@@ -118,7 +118,7 @@ struct TerrainSearch {
     const auto size = [](int64_t along) { return along < 0 ? -along : along; };
     const auto larger = [](int64_t p, int64_t q) { return p < q ? q : p; };
     constexpr Real k_far = 32768.0, k_most = 2.0;
-    const auto angle_of = [](const Vec3<Real>& rotation_vector) { return min(length(rotation_vector), k_most); };
+    const auto angle_of = [&](const Vec3<Real>& rotation_vector) { return min(length(rotation_vector), k_most); };
     const Real angle = angle_of(ground_motion.rotation_vector);
     const Real core = real_from_raw(raw_core_radius(convex));
     swing = raw_length((angle + angle_of(motion.rotation_vector)) * core);

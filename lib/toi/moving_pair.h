@@ -74,6 +74,7 @@ struct MovingPair {
   Vec64 offset_whole, displacement_whole;  ///< including the part along a resting half-space's plane
   bool planar;                             ///< one of the two shapes is a half-space
   int64_t from, to;                        ///< the window in which the shapes can touch; from > to: never
+  int64_t last = k_time_end;               ///< a search may end as clear when it has passed this time
   int exponent;            ///< 2^exponent m is the pair's unit of length; the block's ulp is 2^-30 of it
   int32_t core_a, core_b;  ///< core radii, ulps of the block, rounded up
   int64_t distance_max;    ///< bound on the distance of the centres in the window, ulps
