@@ -8,11 +8,14 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 bool MovingShapes::turn() {
-  turned_ =
-      turned_ || (turning_of(motion_a_, turning_a_) == Status::ok && turning_of(motion_b_, turning_b_) == Status::ok);
+  if (!turned_) {
+    if (turning_of(motion_a_, turning_a_) != Status::ok || turning_of(motion_b_, turning_b_) != Status::ok)
+      return false;
+    turned_ = true;
+  }
   pair_.turning_a = rotation_of(*pair_.a, turning_a_);
   pair_.turning_b = rotation_of(*pair_.b, turning_b_);
-  return turned_;
+  return true;
 }
 
 bool MovingShapes::find(const Convex& a, const Convex& b, const Vec3<Unit>& axis, Fraction until,

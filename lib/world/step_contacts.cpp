@@ -24,7 +24,7 @@ struct PairLengths {
 /// The speed at which the surface of a body moves in the axes of another one, to first order, m/s: at least the speed
 /// at which both approach. Bodies that move together have none. Returns false if a value is out of range.
 bool speed_in_frame(const StepBodies& bodies, uint32_t slot, uint32_t frame, Real& speed) {
-  constexpr int k_power_max = 8;  // 2^8 m, rad/s: the products are in the range of a Real
+  constexpr int k_power_max = 6;  // 2^6 m, rad/s: the sums of products are in the range of a Real
   const auto angular_velocity = [&](uint32_t of, Vec3<Real>& found) {
     const int power = k_angular_velocity_power - bodies.properties[of].size_exponent;
     const Vec3<Real>& scaled = bodies.work[of].angular_velocity;
@@ -38,7 +38,7 @@ bool speed_in_frame(const StepBodies& bodies, uint32_t slot, uint32_t frame, Rea
   if (exponent_above(greatest(offset)) > k_power_max) return false;
   const BodyProperties& properties = bodies.properties[slot];
   const Real radius = real_from_unit(properties.bounding_radius, properties.size_exponent);
-  if (exponent_above(radius) > k_power_max - 2) return false;
+  if (exponent_above(radius) > k_power_max) return false;
   const Vec3<Real> velocity = bodies.motions[slot].linear_velocity - bodies.motions[frame].linear_velocity;
   speed = absolute_sum(velocity - cross(of_frame, offset)) + absolute_sum(own - of_frame) * radius;
   return true;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/body_convex.h"
+#include "contact/terrain_distance.h"
 #include "tests/common/oracle/bodies.h"
 #include "tests/unit/shape/terrains.h"
 
@@ -70,6 +71,58 @@ DETENT_TEST(terrain_impact, is_that_of_the_first_of_all_triangles_however_long_t
     ASSERT_TRUE(impact.normal == expected.normal) << round;
   }
   EXPECT_GT(met, detent_oracle::rounds(200) / 4);
+}
+
+/// The ground moves and rotates as well. Before the impact, or in the whole tick if there is none, no triangle touches.
+DETENT_TEST(terrain_impact, is_never_late_over_ground_that_turns) {
+  Samples samples = {9};
+  const detent_terrains::Bytes bytes = detent_terrains::field_of(
+      12, 1, [](double x, double z) { return sin(x) * cos(0.7 * z); }, false);
+  const Asset asset = {bytes.data(), bytes.count()};
+  const AssetTable assets = {&asset, 1};
+  BodyProperties ground_properties{};
+  ground_properties.type = static_cast<uint32_t>(BodyType::kinematic);
+  const FeatureTable features = make_feature_table(Features::all);
+  ASSERT_OK(set_shape_properties(terrain(0), ground_properties, assets, features));
+  uint32_t met = 0, clear = 0;
+  for (uint32_t round = 0; round < detent_oracle::rounds(300); ++round) {
+    const auto some = [&] { return uniform(samples, 0.05, 0.4); };
+    const double thin = round % 4 == 3 ? 0.1 : 1;
+    const BodyProperties properties = round % 4 == 0   ? sphere_properties(some())
+                                      : round % 4 == 1 ? capsule_properties(0.05, 2 * some())
+                                                       : box_properties({{thin * some(), some() / thin, some()}});
+    const auto swept = [&](double rotation, double displacement) {
+      BodySweep sweep = {};
+      sweep.rotation_vector = reals_near(any_direction(samples) * (rotation * uniform(samples, 0, 1)));
+      sweep.displacement = reals_near(any_direction(samples) * (displacement * uniform(samples, 0, 1)));
+      return sweep;
+    };
+    BodyPose ground_pose = {}, pose = {};
+    ground_pose.rotation = rotation_near(any_rotation(samples));
+    Vector from = {{uniform(samples, -5, 5), uniform(samples, -1, 3), uniform(samples, -5, 5)}};
+    Vector at = {{0, 0, 0}};
+    for (int i = 0; i < 3; ++i) at = at + detent_oracle::axis_of(host(ground_pose.rotation), i) * from[i];
+    pose.position = position_near(at);
+    pose.rotation = rotation_near(any_rotation(samples));
+    const BodySweep ground_sweep = swept(0.3, 0.5), sweep = swept(1, 1);
+    const SweptBody body = {properties, pose, sweep}, ground = {ground_properties, ground_pose, ground_sweep};
+    Convex convex;
+    ASSERT_TRUE(body_convex(properties, assets, convex));
+    TimeOfImpact impact;
+    ASSERT_TRUE(terrain_impact(assets, k_terrain_ops, body, ground, convex, Fraction(0.0), impact));
+    ++(impact.outcome == ToiOutcome::clear ? clear : met);
+    for (int part = 0; part < 32; ++part) {
+      const Fraction time = Fraction::from_raw((k_whole_step.raw >> 5) * part);
+      if (impact.outcome != ToiOutcome::clear && !(time < impact.time)) break;
+      const BodyPose ground_at = pose_at(ground, time), body_at = pose_at(body, time);
+      bool farther = false;
+      ASSERT_TRUE(farther_than_terrain(assets, ground_properties, {ground_at.position, ground_at.rotation}, properties,
+                                       convex, {body_at.position, body_at.rotation}, real_near(0), farther));
+      ASSERT_TRUE(farther) << round << ", " << part;
+    }
+  }
+  EXPECT_GT(met, detent_oracle::rounds(300) / 8);
+  EXPECT_GT(clear, detent_oracle::rounds(300) / 8);
 }
 
 }  // namespace
