@@ -1,6 +1,7 @@
 #include <functional>
 #include <memory>
 
+#include "state/step_scratch.h"
 #include "state/view.h"
 #include "tests/common/support/random.h"
 #include "tests/common/support/scheduler.h"
@@ -37,6 +38,15 @@ WarpCount& operator+=(WarpCount& sum, const WarpCount& count) {
   sum.rounds += count.rounds;
   sum.returns += count.returns;
   return sum;
+}
+
+/// Without the vector solver, what impacts share with the work space of the substeps leaves less memory than the scenes
+/// of these tests need for groups.
+bool has_memory_for_groups(const Make& make) {
+  const std::unique_ptr<Arena> arena = make();
+  const auto view = view_of(arena->world);
+  const uint64_t bytes = 8 * uint64_t{impact_spare(arena->block(), view.layout, capacity_of(view.header)).count};
+  return bytes >= 1 << 19;
 }
 
 /// The hits of the last step, in their order. They stay in the work space of the block.
@@ -122,6 +132,7 @@ Make box_of_bodies(uint32_t side, double spacing, double speed, Random seed, uin
 }
 
 DETENT_TEST(time_warp, changes_no_bit_of_fast_bodies_in_a_box) {
+  if (!has_memory_for_groups(box_of_bodies(5, 0.8, 20, 0))) GTEST_SKIP() << "too little memory for groups";
   WarpCount count;
   for (uint32_t seed = 0; seed < 11; ++seed)
     count += expect_global_bits(box_of_bodies(5, 0.8 + 0.1 * (seed % 5), 20 + 10 * (seed % 9), seed), 4, seed);
@@ -177,7 +188,8 @@ DETENT_TEST(time_warp, changes_no_bit_of_rocks_that_fall_down_a_mountain) {
     }
     return arena;
   };
-  EXPECT_GT(expect_global_bits(make, 40, 6).speculations, 30u);
+  const uint32_t groups = expect_global_bits(make, 40, 6).speculations;
+  EXPECT_TRUE(groups > 30 || !has_memory_for_groups(make)) << groups;
 }
 
 /// A ball that rebounds without loss.
@@ -241,6 +253,7 @@ Make rows_of_gates(uint32_t gates) {
 
 /// A group finds the next gate only after it was merged with the group of the one before.
 DETENT_TEST(time_warp, of_a_cascade_merges_one_group_after_the_other) {
+  if (!has_memory_for_groups(rows_of_gates(3))) GTEST_SKIP() << "too little memory for groups";
   for (const uint32_t gates : {1u, 2u, 3u}) {
     WarpCount count;
     expect_equal_ticks(rows_of_gates(gates), 1, ImpactOrder::optimistic, {}, count);
@@ -253,6 +266,7 @@ DETENT_TEST(time_warp, of_a_cascade_merges_one_group_after_the_other) {
 }
 
 DETENT_TEST(time_warp, of_a_long_cascade_returns_to_the_global_order) {
+  if (!has_memory_for_groups(rows_of_gates(7))) GTEST_SKIP() << "too little memory for groups";
   WarpCount count;
   expect_equal_ticks(rows_of_gates(7), 1, ImpactOrder::optimistic, {}, count);
   EXPECT_EQ(count.rounds, 4u);
@@ -261,6 +275,7 @@ DETENT_TEST(time_warp, of_a_long_cascade_returns_to_the_global_order) {
 }
 
 DETENT_TEST(time_warp, runs_the_same_groups_for_any_number_of_threads) {
+  if (!has_memory_for_groups(box_of_bodies(5, 0.9, 60, 3))) GTEST_SKIP() << "too little memory for groups";
   WarpCount first;
   for (const uint32_t workers : {2u, 5u, 64u}) {
     Scheduler scheduler = {Calls::threads, Parts::shuffled, workers, workers == 5};
@@ -311,6 +326,7 @@ DETENT_TEST(time_warp, drops_the_same_impacts_where_the_pool_is_full) {
 
 /// No room spends the work of all, but all rooms together do.
 DETENT_TEST(time_warp, returns_to_the_global_order_where_the_work_is_spent) {
+  if (!has_memory_for_groups(rooms(12, 8000, 2000))) GTEST_SKIP() << "too little memory for groups";
   const WarpCount count = expect_global_bits(rooms(12, 8000, 2000), 3, 2);
   EXPECT_GT(count.returns, 0u);
   EXPECT_GT(count.speculations, count.ticks);
