@@ -46,7 +46,9 @@ bool has_memory_for_groups(const Make& make) {
   const std::unique_ptr<Arena> arena = make();
   const auto view = view_of(arena->world);
   const uint64_t bytes = 8 * uint64_t{impact_spare(arena->block(), view.layout, capacity_of(view.header)).count};
-  return bytes >= 1 << 19;
+  const bool enough = bytes >= 1 << 19;
+  EXPECT_TRUE(enough || arena->world.lanes != 4);
+  return enough;
 }
 
 /// The hits of the last step, in their order. They stay in the work space of the block.
@@ -132,11 +134,11 @@ Make box_of_bodies(uint32_t side, double spacing, double speed, Random seed, uin
 }
 
 DETENT_TEST(time_warp, changes_no_bit_of_fast_bodies_in_a_box) {
-  if (!has_memory_for_groups(box_of_bodies(5, 0.8, 20, 0))) GTEST_SKIP() << "too little memory for groups";
   WarpCount count;
   for (uint32_t seed = 0; seed < 11; ++seed)
     count += expect_global_bits(box_of_bodies(5, 0.8 + 0.1 * (seed % 5), 20 + 10 * (seed % 9), seed), 4, seed);
   EXPECT_GT(count.ticks, 75u);
+  if (!has_memory_for_groups(box_of_bodies(5, 0.8, 20, 0))) return;
   EXPECT_GT(count.speculations, 4 * count.ticks);
   EXPECT_GT(count.rollbacks, 50u);
   EXPECT_LT(count.returns, count.ticks / 2);
@@ -253,36 +255,35 @@ Make rows_of_gates(uint32_t gates) {
 
 /// A group finds the next gate only after it was merged with the group of the one before.
 DETENT_TEST(time_warp, of_a_cascade_merges_one_group_after_the_other) {
-  if (!has_memory_for_groups(rows_of_gates(3))) GTEST_SKIP() << "too little memory for groups";
   for (const uint32_t gates : {1u, 2u, 3u}) {
     WarpCount count;
     expect_equal_ticks(rows_of_gates(gates), 1, ImpactOrder::optimistic, {}, count);
+    expect_global_bits(rows_of_gates(gates), 3, 5 + gates);
+    if (!has_memory_for_groups(rows_of_gates(gates))) continue;
     EXPECT_EQ(count.rounds, gates + 1);
     EXPECT_EQ(count.rollbacks, 6 * 2 * gates);
     EXPECT_EQ(count.speculations, 6 * (1 + gates) + 6 * gates);
     EXPECT_EQ(count.returns, 0u);
-    expect_global_bits(rows_of_gates(gates), 3, 5 + gates);
   }
 }
 
 DETENT_TEST(time_warp, of_a_long_cascade_returns_to_the_global_order) {
-  if (!has_memory_for_groups(rows_of_gates(7))) GTEST_SKIP() << "too little memory for groups";
   WarpCount count;
   expect_equal_ticks(rows_of_gates(7), 1, ImpactOrder::optimistic, {}, count);
+  expect_global_bits(rows_of_gates(7), 3, 8);
+  if (!has_memory_for_groups(rows_of_gates(7))) return;
   EXPECT_EQ(count.rounds, 4u);
   EXPECT_EQ(count.returns, 1u);
-  expect_global_bits(rows_of_gates(7), 3, 8);
 }
 
 DETENT_TEST(time_warp, runs_the_same_groups_for_any_number_of_threads) {
-  if (!has_memory_for_groups(box_of_bodies(5, 0.9, 60, 3))) GTEST_SKIP() << "too little memory for groups";
   WarpCount first;
   for (const uint32_t workers : {2u, 5u, 64u}) {
     Scheduler scheduler = {Calls::threads, Parts::shuffled, workers, workers == 5};
     WarpCount count;
     expect_equal_ticks(box_of_bodies(5, 0.9, 60, 3), 4, ImpactOrder::optimistic, scheduler.tasks(), count);
     if (workers == 2) first = count;
-    EXPECT_GT(count.rollbacks, 0u);
+    EXPECT_TRUE(count.rollbacks > 0 || !has_memory_for_groups(box_of_bodies(5, 0.9, 60, 3)));
     EXPECT_EQ(count.speculations, first.speculations) << workers;
     EXPECT_EQ(count.rollbacks, first.rollbacks) << workers;
     EXPECT_EQ(count.rounds, first.rounds) << workers;
@@ -326,9 +327,9 @@ DETENT_TEST(time_warp, drops_the_same_impacts_where_the_pool_is_full) {
 
 /// No room spends the work of all, but all rooms together do.
 DETENT_TEST(time_warp, returns_to_the_global_order_where_the_work_is_spent) {
-  if (!has_memory_for_groups(rooms(12, 8000, 2000))) GTEST_SKIP() << "too little memory for groups";
   const WarpCount count = expect_global_bits(rooms(12, 8000, 2000), 3, 2);
   EXPECT_GT(count.returns, 0u);
+  if (!has_memory_for_groups(rooms(12, 8000, 2000))) return;
   EXPECT_GT(count.speculations, count.ticks);
 }
 
