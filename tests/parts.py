@@ -38,8 +38,13 @@ TARGETS = {row["name"]: row for row in table("toolchains/targets.csv")}
 INPUTS = {row["inputs"]: row for row in table("tests/inputs.csv")}
 
 
+def chosen(text):
+    """A column of tests/parts.csv: what is in parentheses counts only with --full."""
+    return re.sub(r"[()]" if os.environ.get("DETENT_FULL") else r"\([^)]*\) *", "", text).strip()
+
+
 def configs_of(part):
-    return part["configs"] or TARGETS[part["target"]]["configs"]
+    return chosen(part["configs"]) or TARGETS[part["target"]]["configs"]
 
 
 def budget(part):
@@ -68,8 +73,8 @@ def inputs_of(part, files):
 
 
 def digest_of(part, files, cache={}):
-    """Of everything that can change what the part says: its row, its files, and the versions of its tools."""
-    total = hashlib.sha256(json.dumps(part).encode())
+    """Of everything that can change what the part says: its row, --full, its files, and the versions of its tools."""
+    total = hashlib.sha256(json.dumps([part, "DETENT_FULL" in os.environ]).encode())
     packages = set("cmake ninja-build googletest".split())
     for name in [part["target"]] + part["needs"].split():
         packages.update(TARGETS.get(name, {"packages": ""})["packages"].split())
@@ -101,7 +106,7 @@ def cached_tests(build, passed):
     digests of then. Returns the numbers to run, or None for all, and the digests of now."""
     listed = json.loads(subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], capture_output=True, check=True).stdout)
     known, now, run = {}, {}, []
-    data = hashlib.sha256()
+    data = hashlib.sha256(b"full" if "DETENT_FULL" in os.environ else b"")
     for name in source_files():
         if not name.endswith((".cpp", ".h", ".md")):
             data.update(name.encode() + hashlib.sha256((ROOT / name).read_bytes()).digest())
@@ -156,7 +161,7 @@ class Part:
     def suite(self):
         row = self.row
         configs = configs_of(row).replace(" ", ";")
-        tested, _, programs = row["unit_tests"].partition(":")
+        tested, _, programs = chosen(row["unit_tests"]).partition(":")
         options = [f"-DDETENT_CONFIGS={configs}", f"-DDETENT_CONFIG={configs.split(';')[0]}", "-DDETENT_TESTS=ON",
                    "-DDETENT_TOOLS=OFF", "-DDETENT_EXAMPLES=OFF", *shlex.split(row["options"]),
                    f"-DDETENT_TESTED_CONFIGS={tested.strip().replace(' ', ';') or 'none'}",

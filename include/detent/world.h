@@ -59,7 +59,8 @@ struct WorldDef {
   uint32_t substeps_max = 32;  ///< largest number that the step chooses if `substeps` is 0, [1, 64]
   /// The accuracy of contacts at rest: the step chooses so many substeps that a contact sinks under its load by at most
   /// this fraction of the smaller extent, [2^-12, 2^-3]. A quarter of the value takes about twice the substeps. Their
-  /// number is bounded by `substeps_max`, and in large islands by their contacts (SPEC.md, "Substeps").
+  /// number is bounded by `substeps_max`, in large islands by their contacts, and with joints by 6 (SPEC.md,
+  /// "Substeps").
   Real resting_penetration = Real(1.0 / 144);
   uint32_t iterations = 1;  ///< solver iterations over the contacts in a substep, [1, 64]
   /// The iterations of a substep end early if the last iteration changed no velocity by more than 2^-convergence g h.
@@ -68,7 +69,9 @@ struct WorldDef {
   /// How the solver corrects penetration.
   Stabilisation stabilisation = Stabilisation::soft;
   Real relaxation = 1.0;                ///< over-relaxation factor of the SOR solver, [1/4, 7/4]
-  Real contact_frequency = Real(0.14);  ///< frequency of soft contacts as a fraction of the substep rate, [1/64, 1/4]
+  /// Frequency of soft contacts as a fraction of the substep rate; in islands with joints as a fraction of the rate of
+  /// 24 substeps, if there are fewer. Range: [1/64, 1/4].
+  Real contact_frequency = Real(0.14);
   /// Damping ratio of soft contacts, [0, 64]. Contacts between two dynamic bodies use 0.7 times this value, all other
   /// contacts half of it.
   Real damping_ratio = 10.0;
@@ -151,8 +154,8 @@ struct WorldHooks {
 struct World {
   uint8_t* block = nullptr;                ///< the block passed to create_world()
   const FeatureTable* features = nullptr;  ///< the features passed to create_world()
-  /// Number of contacts that the solver processes at once. create_world() sets 4 if this machine supports it, else 1.
-  /// The results of both are bit-identical.
+  /// The most contacts that the solver processes at once: 1, 4 or 8. create_world() sets what this machine supports: 8
+  /// in f32 on x86-64, 4 in other builds with lanes, else 1. The results are bit-identical.
   uint32_t lanes = 1;
   /// The hooks passed to create_world(). They may be changed between calls, but the assets and filter rules that bodies
   /// use must stay available.

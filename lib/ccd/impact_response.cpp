@@ -15,7 +15,7 @@ constexpr int k_rounds = 2;
 
 Vec3<Real> scaled(const Vec3<Real>& v, Scaled factor) {
   bool saturated = false;
-  return {multiply(v.x, factor, saturated), multiply(v.y, factor, saturated), multiply(v.z, factor, saturated)};
+  return multiply(v, factor, saturated);
 }
 
 /// Twice the kinetic energy of rotation per unit mass, m^2/s^2. `local`: the angular momentum as in BodyMotion, but in

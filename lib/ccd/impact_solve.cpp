@@ -107,10 +107,8 @@ Vec3<Real> fall_after(const ImpactStage& stage, uint32_t slot, Fraction time) {
   if (!is_dynamic(properties) || (stage.sweep_of(slot).marks & k_mark_slept) != 0) return k_zero_vector;
   const Vec3<Real> fall = stage.settings.gravity * stage.settings.tick_time;
   bool saturated = false;
-  const Vec3<Real> own = {multiply(fall.x, properties.gravity_scale, saturated),
-                          multiply(fall.y, properties.gravity_scale, saturated),
-                          multiply(fall.z, properties.gravity_scale, saturated)};
-  return sweep_part({own, k_zero_vector}, k_whole_step - time).displacement;
+  return sweep_part({multiply(fall, properties.gravity_scale, saturated), k_zero_vector}, k_whole_step - time)
+      .displacement;
 }
 
 /// Returns a part of the speed, m/s, at which the rotations of both bodies can bring them together again in the rest of

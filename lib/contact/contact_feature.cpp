@@ -42,16 +42,20 @@ Vec32 plane_normal(const HullView& hull, uint32_t face) {
 
 constexpr uint32_t k_face_words = 16;  ///< a hull has at most 506 faces
 
-/// A set of vertices of a hull.
+/// A set of vertices of a hull. Bytes, because most tests are of vertices that are not in it.
 struct VertexSet {
-  uint32_t words[8] = {};
+  uint8_t has[k_hull_vertices_max] = {};  ///< 1: the vertex is in the set
   uint32_t count = 0;
 
-  BitSet bits() { return {{words, 8}}; }
   /// Range: `v` is not yet in the set.
   void add(uint32_t v) {
-    bits().set(v);
+    has[v] = 1;
     ++count;
+  }
+  uint32_t shared_with(const HullIndices& loop) const {
+    uint32_t shared = 0;
+    for (uint32_t i = 0; i < loop.count; ++i) shared += has[loop.index[i]];
+    return shared;
   }
 };
 
@@ -62,22 +66,37 @@ struct VertexPolygon {
 
 /// Returns the vertices whose coordinate along `direction` (Q30) is smaller than the greatest one by at most `room`.
 VertexSet level_along(const HullView& hull, const Vec32& direction, int64_t room) {
+  const HullHeights heights(hull, direction);
+  const int64_t slack = room * k_one;
+  VertexSet level;
+#if defined(__OPTIMIZE_SIZE__)
   int64_t top = INT64_MIN;
   for (uint32_t v = 0; v < hull.vertex_count; ++v) {
-    const int64_t height = dot(hull.vertex(v), direction);
+    const int64_t height = heights.of(v);
     top = height > top ? height : top;
   }
-  VertexSet level;
   for (uint32_t v = 0; v < hull.vertex_count; ++v) {
-    if (dot(hull.vertex(v), direction) >= top - room * k_one) level.add(v);
+    if (heights.of(v) >= top - slack) level.add(v);
   }
-  return level;
-}
-
-uint32_t shared_count(const HullIndices& loop, BitSet set) {
+#else
+  int64_t top = INT64_MIN / 2, floor = top;
+  uint8_t near[k_hull_vertices_max];  // the vertices that were level when they were met, but not those far below `top`
   uint32_t count = 0;
-  for (uint32_t i = 0; i < loop.count; ++i) count += set.has(loop.index[i]) ? 1u : 0u;
-  return count;
+  for (uint32_t v = 0; v < hull.vertex_count; ++v) {
+    const int64_t height = heights.of(v);
+    if (height < floor) continue;
+    if (height > top) {
+      if (height - slack > top) count = 0;
+      top = height;
+      floor = top - slack;
+    }
+    near[count++] = static_cast<uint8_t>(v);
+  }
+  for (uint32_t i = 0; i < count; ++i) {
+    if (heights.of(near[i]) >= floor) level.add(near[i]);
+  }
+#endif
+  return level;
 }
 
 /// The normal of a polygon, with a length of twice its area. Widths: below 2^63, because all vertices lie within 2^30.
@@ -92,7 +111,7 @@ Vec64 area_vector(const HullView& hull, const uint8_t* polygon, uint32_t count) 
 }
 
 /// Makes a polygon of the vertices of a set that are farthest along 32 directions perpendicular to a normal.
-void find_outline(const HullView& hull, const Vec32& normal, BitSet set, VertexPolygon& polygon) {
+void find_outline(const HullView& hull, const Vec32& normal, const VertexSet& set, VertexPolygon& polygon) {
   constexpr int32_t k_sine[9] = {0, 195, 383, 556, 707, 831, 924, 981, 1000};
   const Vec32 u = unit(cross(normal, magnitude_32(normal.x) < (1u << 29) ? Vec32{k_one, 0, 0} : Vec32{0, k_one, 0}));
   const Vec32 w = round_shift(cross(normal, u), 30);
@@ -100,24 +119,27 @@ void find_outline(const HullView& hull, const Vec32& normal, BitSet set, VertexP
   int64_t most[k_feature_points_max];
   for (int64_t& margin : most) margin = INT64_MIN;
   for (uint32_t v = 0; v < hull.vertex_count; ++v) {
-    if (!set.has(v)) continue;
+    if (set.has[v] == 0) continue;
     const Vec32 at = hull.vertex(v);
     const int64_t right = dot(u, at) >> 30, up = dot(w, at) >> 30;
-    for (int i = 0; i < k_feature_points_max; ++i) {
-      const int quarter = i / 8, part = i % 8;
+    for (int part = 0; part < 8; ++part) {
       const int32_t c = k_sine[8 - part], s = k_sine[part];
-      const int32_t x = quarter == 0 ? c : quarter == 1 ? -s : quarter == 2 ? -c : s;
-      const int32_t y = quarter == 0 ? s : quarter == 1 ? c : quarter == 2 ? -s : -c;
-      const int64_t margin = right * x + up * y;
-      if (margin <= most[i]) continue;
-      most[i] = margin;
-      best[i] = static_cast<uint8_t>(v);
+      int64_t margin = right * c + up * s, next = up * c - right * s;  // along directions at a right angle
+      for (int i = part; i < k_feature_points_max; i += 8) {
+        if (margin > most[i]) {
+          most[i] = margin;
+          best[i] = static_cast<uint8_t>(v);
+        }
+        const int64_t last = margin;
+        margin = next;
+        next = -last;
+      }
     }
   }
   VertexSet taken;
   polygon.count = 0;
   for (const uint8_t v : best) {
-    if (taken.bits().has(v)) continue;
+    if (taken.has[v] != 0) continue;
     taken.add(v);
     polygon.vertex[polygon.count++] = v;
   }
@@ -128,15 +150,28 @@ void find_outline(const HullView& hull, const Vec32& normal, BitSet set, VertexP
 /// of the two distances, at least 0.
 int32_t hull_half_thickness(const HullView& hull) {
   Vec64 sum = {0, 0, 0};
-  for (uint32_t v = 0; v < hull.vertex_count; ++v) sum = add(sum, Vec64{hull.x(v), hull.y(v), hull.z(v)});
+  for (uint32_t v = 0; v < hull.vertex_count; ++v) {
+    const Vec32 at = hull.vertex(v);
+    sum = add(sum, Vec64{at.x, at.y, at.z});
+  }
   const int64_t n = hull.vertex_count;
   const Vec32 mean = {static_cast<int32_t>(sum.x / n), static_cast<int32_t>(sum.y / n),
                       static_cast<int32_t>(sum.z / n)};
   int64_t from_origin = INT32_MAX, from_mean = INT32_MAX;
+#if !defined(__OPTIMIZE_SIZE__)
+  for (uint32_t f = 0; f < hull.face_count; ++f) {
+    const int64_t offset = hull.plane(f).offset;
+    from_origin = offset < from_origin ? offset : from_origin;
+  }
+#endif
   for (uint32_t f = 0; f < hull.face_count; ++f) {
     const int64_t offset = hull.plane(f).offset, beyond = offset - (dot(plane_normal(hull, f), mean) >> 30);
-    from_origin = offset < from_origin ? offset : from_origin;
     from_mean = beyond < from_mean ? beyond : from_mean;
+#if defined(__OPTIMIZE_SIZE__)
+    from_origin = offset < from_origin ? offset : from_origin;
+#else
+    if (from_mean <= from_origin) break;  // the distance from the mean does not count
+#endif
   }
   const int64_t most = from_origin > from_mean ? from_origin : from_mean;
   return most > 0 ? static_cast<int32_t>(most) : 0;
@@ -151,21 +186,23 @@ constexpr int k_beyond_power = 2;
 constexpr int k_even_rounds_max = 4;  ///< rounds in which the region level with a face may grow
 
 /// Finds the faces that contain at least one vertex of `vertices`.
-void find_faces(const HullView& hull, BitSet vertices, BitSet faces) {
-  for (uint32_t i = 0; i < hull.edge_count; ++i) {
+void find_faces(const HullView& hull, const VertexSet& vertices, BitSet faces) {
+  const uint8_t* ends = hull.bytes + hull.at.edges;
+  for (uint32_t i = 0; i < hull.edge_count; ++i, ends += k_hull_edge_bytes) {
+    if ((vertices.has[ends[0]] | vertices.has[ends[1]]) == 0) [[likely]]
+      continue;
     const HullEdge edge = hull.edge(i);
-    if (!vertices.has(edge.a) && !vertices.has(edge.b)) continue;
     faces.set(edge.left);
     faces.set(edge.right);
   }
 }
 
 /// Returns the face with the most vertices of `level`; among equal faces, the one whose normal is closest to `d`.
-uint32_t face_along(const HullView& hull, const Vec32& d, BitSet level, BitSet faces) {
+uint32_t face_along(const HullView& hull, const Vec32& d, const VertexSet& level, BitSet faces) {
   uint32_t best = 0, most = 0;
   int64_t steepest = INT64_MIN;
   faces.for_each([&](uint32_t f) {
-    const uint32_t shared = shared_count(hull.face(f), level);
+    const uint32_t shared = level.shared_with(hull.face(f));
     if (shared < most) return;
     const int64_t along = dot(plane_normal(hull, f), d);
     if (shared == most && along <= steepest) return;
@@ -197,11 +234,11 @@ bool find_even(const HullView& hull, uint32_t face, int64_t room, VertexPolygon&
   const HullIndices loop = hull.face(face);
   uint32_t before = 0;
   for (int round = 0; round < k_even_rounds_max; ++round) {
-    VertexSet level = level_along(hull, normal, room);
-    if (shared_count(loop, level.bits()) == level.count) return false;
+    const VertexSet level = level_along(hull, normal, room);
+    if (level.shared_with(loop) == level.count) return false;
     if (level.count == before) break;
     before = level.count;
-    find_outline(hull, normal, level.bits(), polygon);
+    find_outline(hull, normal, level, polygon);
     const Vec64 area = area_vector(hull, polygon.vertex, polygon.count);
     if (polygon.count < 3 || is_zero(area)) return false;
     normal = unit(area);
@@ -214,11 +251,11 @@ bool find_even(const HullView& hull, uint32_t face, int64_t room, VertexPolygon&
 __attribute__((noinline)) void hull_face(const Placed& placed, const Vec32& d, int32_t thickness, Feature& face) {
   const HullView& hull = placed.hull;
   const int64_t room = thickness >> k_even_power;
-  VertexSet level = level_along(hull, d, room);
+  const VertexSet level = level_along(hull, d, room);
   uint32_t words[k_face_words] = {};
-  const BitSet faces = {{words, k_face_words}};
-  find_faces(hull, level.bits(), faces);
-  face.index = face_along(hull, d, level.bits(), faces);
+  const BitSet faces = {{words, (hull.face_count + 31) / 32}};
+  find_faces(hull, level, faces);
+  face.index = face_along(hull, d, level, faces);
   VertexPolygon polygon;
   Vec32 normal = normal_about(hull, face.index, faces);
   if (find_even(hull, face.index, room, polygon, normal)) {
@@ -229,7 +266,7 @@ __attribute__((noinline)) void hull_face(const Placed& placed, const Vec32& d, i
     if (loop.count > k_feature_points_max) {
       VertexSet corners;
       for (uint32_t i = 0; i < loop.count; ++i) corners.add(loop.index[i]);
-      find_outline(hull, normal, corners.bits(), polygon);
+      find_outline(hull, normal, corners, polygon);
     } else {
       polygon.count = loop.count;
       for (uint32_t i = 0; i < loop.count; ++i) polygon.vertex[i] = loop.index[i];
@@ -286,6 +323,16 @@ void round_line(const Placed& placed, const Vec32& d, Feature& edge) {
   edge.add(placed.point(local_support(convex, up).local), k_line);
   edge.add(placed.point(local_support(convex, {d.x, -k_one, d.z}).local), k_line + 1);
   edge.index = k_line;
+}
+
+/// The vertex `v` of a core that has vertices.
+Vec32 vertex_of(const Placed& placed, uint32_t v) {
+#if !defined(__OPTIMIZE_SIZE__)
+  if (placed.convex->type == ShapeType::hull) return placed.hull.vertex(v);
+#endif
+  CorePoint core;
+  core_vertex(*placed.convex, static_cast<uint8_t>(v), core);
+  return core.local;
 }
 
 int64_t slope_of(const Vec32& from, const Vec32& to, const Vec32& direction) {
@@ -350,9 +397,9 @@ void supporting_edge(const Placed& placed, const Vec32& direction, int64_t slope
   uint32_t best = from;
   int64_t least = INT64_MAX;
   const auto consider = [&](uint32_t to) {
-    CorePoint core;
-    if (!core_vertex(convex, static_cast<uint8_t>(to), core) || core.local == farthest.core.local) return;
-    const int64_t slope = slope_of(farthest.core.local, core.local, d);
+    const Vec32 at = vertex_of(placed, to);
+    if (at == farthest.core.local) return;
+    const int64_t slope = slope_of(farthest.core.local, at, d);
     if (slope >= least) return;
     least = slope;
     best = to;
@@ -370,7 +417,9 @@ void supporting_edge(const Placed& placed, const Vec32& direction, int64_t slope
     case ShapeType::hull:
       for (uint32_t i = 0; i < placed.hull.edge_count; ++i) {
         const HullEdge e = placed.hull.edge(i);
-        if (e.a == from || e.b == from) consider(e.a == from ? e.b : e.a);
+        if (e.a > from) break;  // the edges are in ascending order, and b > a
+        if (e.a != from && e.b != from) continue;
+        consider(e.a == from ? e.b : e.a);
       }
       break;
     default:
@@ -382,9 +431,7 @@ void supporting_edge(const Placed& placed, const Vec32& direction, int64_t slope
   }
   for (int i = 0; i < 2; ++i) {
     const uint32_t v = (from < best) == (i == 0) ? from : best;
-    CorePoint core;
-    core_vertex(convex, static_cast<uint8_t>(v), core);
-    edge.add(placed.point(core.local), v);
+    edge.add(placed.point(vertex_of(placed, v)), v);
   }
   edge.index = edge_index(placed, from, best);
 }
@@ -400,9 +447,20 @@ uint32_t edge_index(const Placed& placed, uint32_t vertex_a, uint32_t vertex_b) 
       return vertex_a + vertex_b - 1;
     case ShapeType::hull: {
       const uint32_t low = vertex_a < vertex_b ? vertex_a : vertex_b, high = vertex_a < vertex_b ? vertex_b : vertex_a;
-      for (uint32_t i = 0; i < placed.hull.edge_count; ++i) {
+      uint32_t from = 0;
+#if !defined(__OPTIMIZE_SIZE__)
+      // The edges are in ascending order. The loop leaves those from `from` on, 8 at most.
+      for (uint32_t to = placed.hull.edge_count; to - from > 8;) {
+        const uint32_t middle = (from + to) / 2;
+        const HullEdge e = placed.hull.edge(middle);
+        const bool is_before = e.a < low || (e.a == low && e.b <= high);
+        (is_before ? from : to) = middle;
+      }
+#endif
+      for (uint32_t i = from; i < placed.hull.edge_count; ++i) {
         const HullEdge e = placed.hull.edge(i);
         if (e.a == low && e.b == high) return i;
+        if (e.a > low) break;
       }
       return k_unpaired_edge + vertex_a;
     }
@@ -415,11 +473,6 @@ uint32_t edge_index(const Placed& placed, uint32_t vertex_a, uint32_t vertex_b) 
     default:
       return 0;
   }
-}
-
-int32_t in_block(const Placed& placed, int32_t length) {
-  // The shift may be negative only for a core that is a point.
-  return length == 0 || placed.shift > 30 ? 0 : length >> placed.shift;
 }
 
 int32_t core_half_thickness(const Placed& placed) {

@@ -49,7 +49,10 @@ void supporting_edge(const Placed& placed, const Vec32& direction, int64_t slope
 uint32_t edge_index(const Placed& placed, uint32_t vertex_a, uint32_t vertex_b);
 
 /// Converts a length of the core to ulps of the block, rounded down.
-int32_t in_block(const Placed& placed, int32_t length);
+DETENT_SHARED inline int32_t in_block(const Placed& placed, int32_t length) {
+  // The shift may be negative only for a core that is a point.
+  return length == 0 || placed.shift > 30 ? 0 : length >> placed.shift;
+}
 
 /// The half thickness of the core, ulps of the core. Box, cylinder and cone: the least half extent. Hull: the value
 /// stored in the Convex, if any; else the least distance of a face from the frame's origin or from the mean of the

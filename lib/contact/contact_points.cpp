@@ -37,13 +37,42 @@ int nearest_to(const AreaPoint& place, const AreaChoice& choice) {
   return nearest;
 }
 
-/// One of the two shapes, and the direction of the other.
+/// One of the two shapes, and the direction of the other. Several steps need the face and the edge along `outward`;
+/// the properties that most of them need are kept.
 struct Half {
   const Placed& placed;
-  Vec32 centre;   ///< in the block
-  Vec32 outward;  ///< the axis towards the other shape, Q30
-  int32_t thickness = core_half_thickness(placed);
+  Vec32 centre;                    ///< in the block
+  Vec32 outward;                   ///< the axis towards the other shape, Q30
+  int32_t thickness;               ///< core_half_thickness()
+  mutable uint32_t face_name = 0;  ///< 0: not yet searched for; k_no_face: there is none
+  mutable Vec32 face_normal = {0, 0, 0};
+  mutable uint32_t edge_name = 0;  ///< 0: not yet searched for
+
+  static constexpr uint32_t k_no_face = 1;
+
+  /// supporting_face() along `outward`.
+  bool find_face(Feature& face) const {
+    const bool found = supporting_face(placed, outward, thickness, face);
+    face_name = found ? face.name() : k_no_face;
+    if (found) face_normal = face.normal;
+    return found;
+  }
+  /// supporting_edge() along `outward`, with the slope k_level.
+  void find_edge(Feature& edge) const {
+    supporting_edge(placed, outward, k_level, edge);
+    edge_name = edge.name();
+  }
 };
+
+/// core_half_thickness() of B, given that of A. For a hull it takes a loop over the faces, so two bodies of one hull
+/// share the result.
+int32_t thickness_of_b([[maybe_unused]] const RestingPair& pair, [[maybe_unused]] int32_t of_a) {
+#if !defined(__OPTIMIZE_SIZE__)
+  const uint8_t* hull = pair.a.hull.bytes;
+  if (hull != nullptr && hull == pair.b.hull.bytes && pair.a.convex->size[0] == pair.b.convex->size[0]) return of_a;
+#endif
+  return core_half_thickness(pair.b);
+}
 
 class Builder {
  public:
@@ -51,8 +80,8 @@ class Builder {
       : pair_(pair),
         axis_(axis),
         rules_(rules),
-        half_a_{pair.a, {0, 0, 0}, axis.normal},
-        half_b_{pair.b, pair.offset, negate(axis.normal)} {
+        half_a_{pair.a, {0, 0, 0}, axis.normal, core_half_thickness(pair.a)},
+        half_b_{pair.b, pair.offset, negate(axis.normal), thickness_of_b(pair, half_a_.thickness)} {
     preference_ =
         smaller_but_0(in_block(pair.a, half_a_.thickness), in_block(pair.b, half_b_.thickness)) >> k_face_power;
     drop_ = smaller_but_0(radius_in_block(pair.a), radius_in_block(pair.b)) >> k_drop_power;
@@ -110,7 +139,7 @@ bool Builder::parts_as_well(const Half& half, const Half& other, const Vec32& no
 
 /// Finds the face of `half` on which the contact lies. Returns false if there is none.
 bool Builder::find_face(const Half& half, const Half& other, Feature& face) const {
-  if (!supporting_face(half.placed, half.outward, half.thickness, face)) return false;
+  if (!half.find_face(face)) return false;
   const Vec32& normal = face.normal;
   if (dot(normal, half.outward) <= 0) return false;
   if (!is_parallel(normal, half.outward, k_upright)) {
@@ -146,11 +175,11 @@ void Builder::add_point(const Vec32& normal, const Vec64& twice_middle, int64_t 
 /// rounding would decide between its edges; the face is named instead.
 uint32_t Builder::name_on_axis(const Half& half) {
   Feature feature;
-  if (supporting_face(half.placed, half.outward, half.thickness, feature) &&
-      is_parallel(feature.normal, half.outward, k_upright))
-    return feature.name();
-  supporting_edge(half.placed, half.outward, k_level, feature);
-  return feature.name();
+  if (half.face_name == 0) half.find_face(feature);
+  if (half.face_name != Half::k_no_face && is_parallel(half.face_normal, half.outward, k_upright))
+    return half.face_name;
+  if (half.edge_name == 0) half.find_edge(feature);
+  return half.edge_name;
 }
 
 /// Adds the contact point on the axis itself, unless a point with the same pair of features already exists.
@@ -235,8 +264,10 @@ __attribute__((noinline)) bool Builder::build_on_leaning_face(BlockManifold& man
   for (int attempt = 0; attempt < 2; ++attempt, is_a = !is_a) {
     const Half &half = is_a ? half_a_ : half_b_, &other = is_a ? half_b_ : half_a_;
     Feature face, incident;
-    if (!supporting_face(half.placed, half.outward, half.thickness, face) || !face.is_face()) continue;
-    if (dot(face.normal, half.outward) < k_leaning || !parts_as_well(half, other, face.normal, 4 * preference_))
+    // build_on_face() has searched for the face.
+    if (half.face_name >> 10 != static_cast<uint32_t>(FeatureType::face)) continue;
+    if (dot(half.face_normal, half.outward) < k_leaning ||
+        !parts_as_well(half, other, half.face_normal, 4 * preference_) || !half.find_face(face))
       continue;
     find_incident(other, negate(face.normal), incident);
     const Reference reference(half.placed, half.centre, face, face.normal, radius_in_block(other.placed));
@@ -256,8 +287,8 @@ __attribute__((noinline)) bool Builder::build_on_leaning_face(BlockManifold& man
 
 bool Builder::build_on_edge(BlockManifold& manifold) const {
   Feature edge_a, edge_b;
-  supporting_edge(pair_.a, half_a_.outward, k_level, edge_a);
-  supporting_edge(pair_.b, half_b_.outward, k_level, edge_b);
+  half_a_.find_edge(edge_a);
+  half_b_.find_edge(edge_b);
   if (edge_a.count != 2 || edge_b.count != 2) return false;
   const auto direction = [](const Feature& edge) {
     const Vec32 shift = subtract(edge.point[1], edge.point[0]);

@@ -74,11 +74,12 @@ __attribute__((noinline)) bool is_sliver(const RestingPair& pair, const ContactA
   const int64_t about = pair.block_above(room);
   const NearFaces of_a = faces_about(pair.a, axis.point_a, about);
   if (of_a.count == 0) return false;
-  const NearFaces of_b = faces_about(pair.b, axis.point_b, about);
+  NearFaces of_b;
   for (int i = 0; i < of_a.count; ++i) {
     const Vec32& normal = of_a.normal[i];
     const int64_t along = dot(normal, axis.normal);
     if (along > k_alike || along < -k_alike) continue;
+    if (of_b.count == 0) of_b = faces_about(pair.b, axis.point_b, about);
     bool faced = false;
     for (int k = 0; k < of_b.count; ++k) faced = faced || dot(normal, of_b.normal[k]) < -k_level_faces;
     ContactAxis other;

@@ -133,11 +133,16 @@ void exact_support(const Placed& placed, const Vec64& normal, SupportPoint& foun
     most = support;
     found = {point, core};
   };
+#if !defined(__OPTIMIZE_SIZE__)
   const HullView& hull = placed.hull;
-  for (uint32_t i = 0; i < hull.vertex_count; ++i) {
-    consider({{hull.x(i), hull.y(i), hull.z(i)}, static_cast<uint8_t>(i)});
+  if (hull.vertex_count != 0) {
+    const HullHeights heights(hull, direction);
+    for (uint32_t i = 0; i < hull.vertex_count; ++i) {
+      if (heights.of(i) >= floor) consider({hull.vertex(i), static_cast<uint8_t>(i)});
+    }
+    return;
   }
-  if (hull.vertex_count != 0) return;
+#endif
   CorePoint core;
   for (uint8_t i = 0; core_vertex(*placed.convex, i, core); ++i) consider(core);
 }

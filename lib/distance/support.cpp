@@ -32,37 +32,18 @@ CorePoint hull_vertex(const HullView& hull, uint32_t i) {
   return {{hull.x(i), hull.y(i), hull.z(i)}, static_cast<uint8_t>(i)};
 }
 
-/// The coordinates of a hull's vertices along a direction.
-class Projection {
- public:
-  Projection(const HullView& hull, const Vec32& direction)
-      : x_(hull.bytes + hull.at.x),
-        y_(hull.bytes + hull.at.y),
-        z_(hull.bytes + hull.at.z),
-        dx_(direction.x),
-        dy_(direction.y),
-        dz_(direction.z) {}
-  int64_t of(uint32_t i) const {
-    return dx_ * cooked_i32(x_ + 4 * i) + dy_ * cooked_i32(y_ + 4 * i) + dz_ * cooked_i32(z_ + 4 * i);
-  }
-
- private:
-  const uint8_t *x_, *y_, *z_;
-  int64_t dx_, dy_, dz_;
-};
-
 /// Hill climbing: moves to the farthest neighbour while a neighbour lies farther than the current vertex. On a convex
 /// hull the last vertex is the farthest of all.
-uint32_t climb(const HullView& hull, const Projection& projection, uint32_t start) {
+uint32_t climb(const HullView& hull, const HullHeights& heights, uint32_t start) {
   uint32_t best = start < hull.vertex_count ? start : 0, last = best;
-  int64_t best_value = projection.of(best);
+  int64_t best_value = heights.of(best);
   for (uint32_t step = 0; step < hull.vertex_count; ++step) {
     const HullIndices around = hull.neighbours(best);
     uint32_t next = best;
     for (uint32_t k = 0; k < around.count; ++k) {
       const uint32_t i = around.index[k];
       if (i == last) continue;
-      const int64_t value = projection.of(i);
+      const int64_t value = heights.of(i);
       if (value > best_value) {
         best_value = value;
         next = i;
@@ -75,13 +56,15 @@ uint32_t climb(const HullView& hull, const Projection& projection, uint32_t star
   return best;
 }
 
+}  // namespace
+
 CorePoint hull_support(const HullView& hull, const Vec32& direction, uint32_t start) {
-  const Projection projection(hull, direction);
-  if (hull.vertex_count > k_climbing_vertices) return hull_vertex(hull, climb(hull, projection, start));
+  const HullHeights heights(hull, direction);
+  if (hull.vertex_count > k_climbing_vertices) return hull_vertex(hull, climb(hull, heights, start));
   uint32_t best = 0;
   int64_t best_value = INT64_MIN;
   for (uint32_t i = 0; i < hull.vertex_count; ++i) {
-    const int64_t value = projection.of(i);
+    const int64_t value = heights.of(i);
     if (value > best_value) {
       best_value = value;
       best = i;
@@ -89,8 +72,6 @@ CorePoint hull_support(const HullView& hull, const Vec32& direction, uint32_t st
   }
   return hull_vertex(hull, best);
 }
-
-}  // namespace
 
 bool core_vertex(const Convex& convex, uint8_t feature, CorePoint& point) {
   switch (convex.type) {
@@ -205,7 +186,7 @@ Vec32 Placed::other_point(const Vec32& local) const {
     case ShapeType::capsule:
       return local.y < 0 ? negate(axis[1]) : axis[1];
     default:
-      return shift > 32 ? Vec32{0, 0, 0} : round_shift(multiply(rotation, local), 30 + shift);
+      return turned(local);
   }
 }
 

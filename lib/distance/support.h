@@ -25,6 +25,34 @@ inline HullView hull_of(const Convex& convex) {
   return convex.type == ShapeType::hull ? hull_view(convex.hull) : HullView{};
 }
 
+/// The coordinates of a hull's vertices along a direction, exact.
+class HullHeights {
+ public:
+#if defined(__OPTIMIZE_SIZE__)
+  HullHeights(const HullView& hull, const Vec32& direction) : hull_(hull), direction_(direction) {}
+  int64_t of(uint32_t i) const { return dot(hull_.vertex(i), direction_); }
+
+ private:
+  const HullView& hull_;
+  const Vec32& direction_;
+#else
+  HullHeights(const HullView& hull, const Vec32& direction)
+      : x_(hull.bytes + hull.at.x),
+        y_(hull.bytes + hull.at.y),
+        z_(hull.bytes + hull.at.z),
+        dx_(direction.x),
+        dy_(direction.y),
+        dz_(direction.z) {}
+  int64_t of(size_t i) const {
+    return dx_ * cooked_i32(x_ + 4 * i) + dy_ * cooked_i32(y_ + 4 * i) + dz_ * cooked_i32(z_ + 4 * i);
+  }
+
+ private:
+  const uint8_t *x_, *y_, *z_;
+  int64_t dx_, dy_, dz_;
+#endif
+};
+
 /// The core's point farthest along `direction`, both in the shape's axes. `hull`: hull_of(convex), computed once for
 /// many calls. `start`: the vertex from which hill climbing starts on a large hull, best the last result; any value is
 /// safe. Ties: the same arguments always give the same point. Exact except for cylinders and cones, whose points err by
@@ -33,6 +61,8 @@ CorePoint local_support(const Convex& convex, const HullView& hull, const Vec32&
 inline CorePoint local_support(const Convex& convex, const Vec32& direction) {
   return local_support(convex, hull_of(convex), direction, 0);
 }
+/// local_support() for hulls.
+CorePoint hull_support(const HullView& hull, const Vec32& direction, uint32_t start);
 /// Hulls with more vertices use hill climbing instead of a linear search.
 inline constexpr uint32_t k_climbing_vertices = 8;
 
@@ -49,6 +79,10 @@ class Placed {
   Vec32 point(const Vec32& local) const {
     if (convex->type == ShapeType::box) return box_point(local.x >> 31, local.y >> 31, local.z >> 31);
     return other_point(local);
+  }
+  /// As point(), for hulls and triangles.
+  Vec32 turned(const Vec32& local) const {
+    return shift > 32 ? Vec32{0, 0, 0} : round_shift(multiply(rotation, local), 30 + shift);
   }
   /// The vertex of a box. A coordinate is negative if its argument is -1, and positive if its argument is 0.
   Vec32 box_point(int32_t x, int32_t y, int32_t z) const {
@@ -108,6 +142,12 @@ inline SupportPoint support(const Placed& placed, const Vec32& direction, uint8_
     return {{(axis.x ^ back) - back, (axis.y ^ back) - back, (axis.z ^ back) - back},
             {{0, (convex.size[1] ^ back) - back, 0}, static_cast<uint8_t>(back & 1)}};
   }
+#if !defined(__OPTIMIZE_SIZE__)
+  if (convex.type == ShapeType::hull) {
+    const CorePoint vertex = hull_support(placed.hull, rotate_inverse(placed.rotation, direction), start);
+    return {placed.turned(vertex.local), vertex};
+  }
+#endif
   const CorePoint core = local_support(convex, placed.hull, rotate_inverse(placed.rotation, direction), start);
   return {placed.point(core.local), core};
 }

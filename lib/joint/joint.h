@@ -34,6 +34,13 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+/// Whether this build solves the rows of a joint side by side (joint_lanes.h).
+#if DETENT_QUADS && defined(DETENT_F32)
+#define DETENT_JOINT_LANES 1
+#else
+#define DETENT_JOINT_LANES 0
+#endif
+
 inline constexpr uint32_t k_no_link = UINT32_MAX;
 inline constexpr Real k_joint_impulse_max = 16384.0;  ///< limit of a stored row impulse, m/s
 /// The impulses that a joint stores are scaled from a substep to 2^-k_kept_power of a tick. So they do not depend on
@@ -48,11 +55,12 @@ struct JointStage {
   Span<const BodyPose> poses;
   Span<const BodyActivity> activities;
   Span<JointWork> work;    ///< the active joints, in the order of their slots
+  Span<JointLanes> lanes;  ///< of the active joints, where the machine may have lanes
   Span<JointBody> bodies;  ///< the bodies of the active joints
   /// Indices into `work`: by island, assembly by assembly, in the order of elimination.
   Span<uint32_t> order;
   Span<JointCoupling> couplings;  ///< couplings of the factor
-  Span<Real> numbers;             ///< elements of the factor's blocks
+  Span<Real> numbers;             ///< elements of the factor's blocks; see joint_number_room()
   uint32_t count = 0;             ///< number of entries in `work`
   uint32_t body_count = 0;        ///< number of entries in `bodies`
 #if DETENT_SPARSE
@@ -138,24 +146,21 @@ void each_assembly(const Island& island, const JointStage& stage, const Visit& v
     done += count;
   }
 }
-/// The next mobile body of an assembly from place `at` on (twice the index in `order`, plus the end of the joint); null
-/// after the last. Moves `at` behind it.
-DETENT_SHARED inline JointBody* next_mobile_body(Span<const uint32_t> order, const JointStage& stage, uint32_t& at) {
-  for (; at < 2 * order.count; ++at) {
-    const uint32_t joint = order[at / 2], end = at % 2;
-    JointBody& body = stage.bodies[stage.work[joint].body[end]];
-    if (body.owner != 2 * joint + end) continue;
-    ++at;
-    return &body;
-  }
-  return nullptr;
+/// The mobile body of an assembly that follows `body`; the first one if `body` is null. Null after the last.
+DETENT_SHARED inline JointBody* next_mobile_body(Span<const uint32_t> order, const JointStage& stage,
+                                                 const JointBody* body) {
+  JointBody* const next = &stage.bodies[body == nullptr ? stage.work[order[0]].mark : body->next];
+  return next == body ? nullptr : next;
 }
-/// Visits the mobile bodies of an assembly.
+/// Visits the mobile bodies of an assembly. It has at least one.
 template <class Visit>
 void each_mobile_body(Span<const uint32_t> order, const JointStage& stage, const Visit& visit) {
-  uint32_t at = 0;
-  while (JointBody* const body = next_mobile_body(order, stage, at)) visit(*body);
+  JointBody* body = nullptr;
+  while ((body = next_mobile_body(order, stage, body)) != nullptr) visit(*body);
 }
+
+/// The distance of a block's rows, for a joint with `rows` rows that is eliminated later.
+constexpr uint32_t block_stride(uint32_t rows) { return !DETENT_JOINT_LANES ? rows : rows > 4 ? 8 : 4; }
 
 /// Sets the lowest number of substeps for the joints of an island, and the squared number that their motion needs.
 void require_substeps(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
@@ -172,7 +177,9 @@ inline int row_kind(const JointRow& row) { return is_linear(row) ? 0 : 1; }
 inline int row_kind(const JointRows& rows, uint32_t k) { return k < 3 && rows.points != 0 ? 0 : row_kind(rows.row[k]); }
 
 /// The unit of impulses of linear (0) or angular (1) rows is 2^impulse_power reference masses times m/s.
-inline int impulse_power(const JointWork& work, int kind) { return work.power[kind] + k_impulse_power; }
+inline int impulse_power([[maybe_unused]] const JointWork& work, [[maybe_unused]] int kind) {
+  return DETENT_FIXED ? work.power[kind] + k_impulse_power : 0;
+}
 
 /// Whether the slot has a joint with rows: not empty, and not a filter joint, which only disables collisions.
 inline bool holds(const JointState& joint) {

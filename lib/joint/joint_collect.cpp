@@ -16,7 +16,7 @@ uint32_t place_of(const SolverBodies& bodies, uint32_t slot, JointStage& stage) 
   static_cast<JointBodyStart&>(body) = {};
   body.slot = slot;
   body.mobile = is_dynamic(bodies.properties[slot]) && stage.activities[slot].asleep == 0 ? 1 : 0;
-  body.first = body.last = body.owner = k_no_link;
+  body.first = body.last = body.next = k_no_link;
   body.exponent = bodies.properties[slot].size_exponent;
   body.inverse_mass = Scaled(0.0);
   return place;

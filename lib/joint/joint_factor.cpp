@@ -8,7 +8,8 @@ namespace {
 /// (linear or angular) is added to its diagonal element. A redundant row has only the softness as its pivot; its effect
 /// is then below the precision of the numbers. The rows of a nearly singular system, for example of a nearly straight
 /// chain, yield by an amount that grows with the softness. Therefore the softness is as small as the precision permits.
-/// Rows of drives use k_soft_power, so they yield before locked rows. After make_softer() all rows use k_soft_power.
+/// Rows of drives use k_soft_power, so they yield before locked rows. After make_softer() all rows use k_soft_power,
+/// and after each further call 2^k_softer_step times this softness.
 #if defined(DETENT_F32)
 constexpr int k_softness_power = -20, k_soft_power = -17;
 #elif defined(DETENT_F64)
@@ -16,14 +17,13 @@ constexpr int k_softness_power = -27, k_soft_power = -20;
 #else
 constexpr int k_softness_power = -25, k_soft_power = -20;
 #endif
+constexpr int k_softer_step = 4, k_softer_calls = 4;
 /// Lower bound of the softness of locked rows. With a smaller softness, rounding errors would let redundant rows act
 /// against each other.
 constexpr Real k_softness_min = DETENT_FIXED ? Real(0x1p-20) : k_zero;
 
 /// Lower bound of a pivot, so that its reciprocal is in the range of multiply().
 constexpr Real k_pivot_min = 0x1p-29;
-/// Limit of an impulse in the back substitution, before the terms of the other rows of its joint are subtracted.
-constexpr Real k_solved_max = k_solution_max * Real(4.0);
 #if DETENT_FIXED
 /// Responses are scaled to about 2^k_joint_response_bits, but by at most 2^(2 k_power_max), so that speeds fit a Real.
 constexpr int k_joint_response_bits = 5, k_power_max = 9;
@@ -36,28 +36,27 @@ struct Response {
   Vec3<Real> linear_velocity[k_joint_rows_max], angular_velocity[k_joint_rows_max];
 
   Response(const JointWork& work, const JointBody& body, uint32_t end) {
-    const auto turned = [&](const Vec3<Unit>& torque) {
-      return Vec3<Real>{dot(body.turned[0], torque), dot(body.turned[1], torque), dot(body.turned[2], torque)};
-    };
     if (work.points != 0) {
-      // Angular velocities by unit impulses at the anchor along the axes e_i: I^-1 (r x e_i).
+      // Angular velocities by unit impulses at the anchor along the axes e_i: I^-1 (r x e_i), where I^-1 is symmetric.
       const Vec3<Unit>& r = work.arm[end];
-      const Unit none = 0.0, minus_x = none - r.x, minus_y = none - r.y, minus_z = none - r.z;
-      angular_velocity[0] = turned({none, r.z, minus_y});
-      angular_velocity[1] = turned({minus_z, none, r.x});
-      angular_velocity[2] = turned({r.y, minus_x, none});
+      const Vec3<Real> x = cross(body.turned[0], r), y = cross(body.turned[1], r), z = cross(body.turned[2], r);
+      angular_velocity[0] = {x.x, y.x, z.x};
+      angular_velocity[1] = {x.y, y.y, z.y};
+      angular_velocity[2] = {x.z, y.z, z.z};
       linear_velocity[0] = {body.pushed, k_zero, k_zero};
       linear_velocity[1] = {k_zero, body.pushed, k_zero};
       linear_velocity[2] = {k_zero, k_zero, body.pushed};
     }
     for (uint32_t k = first_other(work); k < work.rows; ++k) {
       const JointRow& row = work.row[k];
-      linear_velocity[k] = {body.pushed * row.axis.x, body.pushed * row.axis.y, body.pushed * row.axis.z};
-      angular_velocity[k] = turned(row.arm[end]);
+      const Vec3<Unit>& torque = row.arm[end];
+      linear_velocity[k] = has_axis(row) ? row.axis * body.pushed : k_zero_vector;
+      angular_velocity[k] = {dot(body.turned[0], torque), dot(body.turned[1], torque), dot(body.turned[2], torque)};
     }
   }
 };
 
+#if !DETENT_JOINT_LANES
 /// Calls `visit` with the rows of two joints: the height and the width of a block. The usual widths are compile-time
 /// constants, and so are both sizes of two joints with only the three rows of the anchor points.
 #if defined(__OPTIMIZE_SIZE__)
@@ -141,6 +140,8 @@ void make_up_product(uint32_t rows, const Real* block, const Rows& scaled, Joint
   }
 }
 
+#endif
+
 }  // namespace
 
 void choose_unit([[maybe_unused]] const JointStage& stage, JointWork& work) {
@@ -170,12 +171,14 @@ void choose_unit([[maybe_unused]] const JointStage& stage, JointWork& work) {
 #endif
 }
 
+#if !DETENT_JOINT_LANES
 void JointFactor::start(JointWork& work) {
   for (uint32_t k = 0; k < work.rows; ++k) {
     work.row_power[k] = work.power[row_kind(work, k)];
     for (uint32_t m = 0; m <= k; ++m) work.response[k][m] = k_zero;
   }
 }
+#endif
 
 const JointCoupling* JointFactor::find(uint32_t one, uint32_t other) const {
   const bool turns = stage_.work[other].place < stage_.work[one].place;
@@ -192,63 +195,34 @@ void JointFactor::make() {
     start(work);
     for (uint32_t at = work.coupling; at != k_no_link;) {
       const JointCoupling& coupling = stage_.couplings[at];
-      const uint32_t size = work.rows * stage_.work[coupling.joint[1]].rows;
+      const uint32_t size = work.rows * block_stride(stage_.work[coupling.joint[1]].rows);
       Real* block = block_of(coupling);
       for (uint32_t k = 0; k < size; ++k) block[k] = k_zero;
       at = coupling.next[0];
     }
   }
-  for (const uint32_t index : order_) {
-    JointWork& work = stage_.work[index];
-    for (uint32_t end = 0; end < 2; ++end) {
-      const JointBody& body = stage_.bodies[work.body[end]];
-      if (body.mobile == 0) continue;
-      const Response reaction(work, body, end);
-      for (uint32_t k = 0; k < work.rows; ++k) {
-        Real speed[k_joint_rows_max];
-        show(work, k + 1, end, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
-        for (uint32_t m = 0; m <= k; ++m)
-          work.response[k][m] += scale_by_power(speed[m], unit_power(work, k) + unit_power(work, m));
-      }
-      for (uint32_t at = work.coupling; at != k_no_link;) {
-        const JointCoupling& coupling = stage_.couplings[at];
-        const JointWork& other = stage_.work[coupling.joint[1]];
-        Real* block = block_of(coupling);
-        at = coupling.next[0];
-        for (uint32_t far = 0; far < 2; ++far) {
-          if (other.body[far] != work.body[end]) continue;
-          for (uint32_t k = 0; k < work.rows; ++k) {
-            Real speed[k_joint_rows_max];
-            show(other, other.rows, far, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
-            for (uint32_t m = 0; m < other.rows; ++m) {
-              const Real scaled = scale_by_power(speed[m], unit_power(work, k) + unit_power(other, m));
-              block[k * other.rows + m] += end == far ? scaled : -scaled;
-            }
-          }
-        }
-      }
-    }
-  }
+  for (const uint32_t index : order_) add_responses(stage_.work[index]);
   for (uint32_t k = 0; dropped_ && k < order_.count; ++k) make_up(order_[k]);
   // Add the softness of each row.
+  const int soft_power = k_soft_power + k_softer_step * (softer_calls_ < 2 ? 0 : softer_calls_ - 1);
   for (const uint32_t index : order_) {
     JointWork& work = stage_.work[index];
     Real most[2] = {k_zero, k_zero};
     const auto kind = [&](uint32_t k) { return row_kind(work, k); };
-    for (uint32_t k = 0; k < work.rows; ++k) most[kind(k)] = max(most[kind(k)], work.response[k][k]);
+    for (uint32_t k = 0; k < work.rows; ++k) most[kind(k)] = max(most[kind(k)], diagonal(work, k));
     for (uint32_t k = 0; k < work.rows; ++k) {
-      const Real soft = scale_by_power(most[kind(k)], k_soft_power);
+      const Real soft = scale_by_power(most[kind(k)], soft_power);
       const Real hard = max(scale_by_power(most[kind(k)], k_softness_power), min(soft, k_softness_min));
-      work.least[k] = max(softer_ || !is_locked(work, k) ? soft : hard, k_pivot_min);
-      work.response[k][k] += work.least[k] + min(work.spring[k], k_spring_max);
+      work.least[k] = max(softer_calls_ != 0 || !is_locked(work, k) ? soft : hard, k_pivot_min);
+      diagonal(work, k) += work.least[k] + min(work.spring[k], k_spring_max);
     }
   }
   for (const uint32_t index : order_) eliminate(stage_.work[index]);
 }
 
 bool JointFactor::make_softer() {
-  if (softer_) return false;
-  softer_ = true;
+  if (softer_calls_ == k_softer_calls) return false;
+  ++softer_calls_;
   make();
   return true;
 }
@@ -269,7 +243,40 @@ void JointFactor::make_up(uint32_t index) {
         Real speed[k_joint_rows_max];
         show(other, other.rows, far, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
         for (uint32_t m = 0; m < other.rows; ++m)
-          work.response[k][k] += abs(scale_by_power(speed[m], unit_power(work, k) + unit_power(other, m)));
+          diagonal(work, k) += abs(scale_by_power(speed[m], unit_power(work, k) + unit_power(other, m)));
+      }
+    }
+  }
+}
+
+#if !DETENT_JOINT_LANES
+
+void JointFactor::add_responses(JointWork& work) {
+  for (uint32_t end = 0; end < 2; ++end) {
+    const JointBody& body = stage_.bodies[work.body[end]];
+    if (body.mobile == 0) continue;
+    const Response reaction(work, body, end);
+    for (uint32_t k = 0; k < work.rows; ++k) {
+      Real speed[k_joint_rows_max];
+      show(work, k + 1, end, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
+      for (uint32_t m = 0; m <= k; ++m)
+        work.response[k][m] += scale_by_power(speed[m], unit_power(work, k) + unit_power(work, m));
+    }
+    for (uint32_t at = work.coupling; at != k_no_link;) {
+      const JointCoupling& coupling = stage_.couplings[at];
+      const JointWork& other = stage_.work[coupling.joint[1]];
+      Real* block = block_of(coupling);
+      at = coupling.next[0];
+      for (uint32_t far = 0; far < 2; ++far) {
+        if (other.body[far] != work.body[end]) continue;
+        for (uint32_t k = 0; k < work.rows; ++k) {
+          Real speed[k_joint_rows_max];
+          show(other, other.rows, far, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
+          for (uint32_t m = 0; m < other.rows; ++m) {
+            const Real scaled = scale_by_power(speed[m], unit_power(work, k) + unit_power(other, m));
+            block[k * other.rows + m] += end == far ? scaled : -scaled;
+          }
+        }
       }
     }
   }
@@ -367,6 +374,8 @@ void JointFactor::solve() {
     }
   }
 }
+
+#endif
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -1,6 +1,7 @@
 #pragma once
 #include "base/unroll.h"
 #include "joint/joint.h"
+#include "joint/joint_lanes.h"
 #include "math/scaled.h"
 
 /// The factor of all joints of an assembly: a block L D L^T of the matrix K + S (joint.h). The block of a joint's own
@@ -69,6 +70,10 @@ class ProductSum {
 #endif
 };
 
+/// Whether products with the axis of a row are computed. In fixed point those of an angular row are left out, because
+/// they are 0. In float they may give a zero its sign.
+inline bool has_axis([[maybe_unused]] const JointRow& row) { return !DETENT_FIXED || is_linear(row); }
+
 /// Computes the part of J v of one body, for the first `rows` rows of a joint: axis . v + arm . w. For A, the caller
 /// must negate it. The three rows of the anchor points are always computed.
 inline void show(const JointWork& work, uint32_t rows, uint32_t end, const Vec3<Real>& linear_velocity,
@@ -79,8 +84,11 @@ inline void show(const JointWork& work, uint32_t rows, uint32_t end, const Vec3<
     speed[1] = at_point.y;
     speed[2] = at_point.z;
   }
-  for (uint32_t k = first_other(work); k < rows; ++k)
-    speed[k] = dot(linear_velocity, work.row[k].axis) + dot(angular_velocity, work.row[k].arm[end]);
+  for (uint32_t k = first_other(work); k < rows; ++k) {
+    const JointRow& row = work.row[k];
+    const Real rotational = dot(angular_velocity, row.arm[end]);
+    speed[k] = has_axis(row) ? dot(linear_velocity, row.axis) + rotational : rotational;
+  }
 }
 
 /// Limit of the impulse of a row in a solution. If an impulse is larger, all impulses of the assembly are scaled down.
@@ -89,13 +97,42 @@ inline constexpr Real k_solution_max = 0x1p24;
 #else
 inline constexpr Real k_solution_max = 16384.0;
 #endif
+/// Limit of an impulse in the back substitution, before the terms of the other rows of its joint are subtracted.
+inline constexpr Real k_solved_max = k_solution_max * Real(4.0);
 /// Limit of the velocity change of a body by its joints, m/s. The sum of two such values fits a Real.
 inline constexpr Real k_gathered_max = 65504.0;
 
 /// Adds the velocity changes M^-1 J^T x of a joint's impulses x to `push` and `twist` of its mobile bodies. Returns
 /// false if a value exceeds k_gathered_max. Range: |x| <= k_solution_max.
-inline bool gather(const JointWork& work, JointBody& a, JointBody& b) {
+#if DETENT_JOINT_LANES
+inline bool gather(const JointStage& stage, const JointWork& work) {
+  const JointLanes& lanes = lanes_of(stage, work);
+  bool fits = true;
+  for (uint32_t end = 0; end < 2; ++end) {
+    JointBody& body = stage.bodies[work.body[end]];
+    if (body.mobile == 0) continue;
+    RowFour force = {}, torque = {};
+    for (uint32_t k = 0; k < work.rows; ++k) {
+      const RowFour impulse = spread(work.impulse[k]);
+      force += load_four(lanes.row[end][k]) * impulse;
+      torque += load_four(lanes.row[end][k] + k_rows_of_four) * impulse;
+    }
+    const Real share = end == 0 ? -body.inverse_mass : body.inverse_mass;
+    // The fourth lane is `pushed`, or an element of kept_rotation: 0 is added to it.
+    const RowFour push = load_four(&body.push.x) + force * spread(share);
+    const RowFour twist = load_four(&body.twist.x) + torque * spread(scaled_by_power(share, body.above));
+    store_four(push, &body.push.x);
+    store_four(twist, &body.twist.x);
+    if (!are_within(push, k_gathered_max, k_sizes_of_three) || !are_within(twist, k_gathered_max, k_sizes_of_three))
+      fits = false;
+  }
+  return fits;
+}
+#else
+inline bool gather(const JointStage& stage, const JointWork& work) {
+  JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
   constexpr int k_kinds = DETENT_FIXED ? 2 : 1;  // kinds of rows with their own unit: linear, angular
+  int kinds = 1;                                 // kinds that the joint has; linear ones may be missing
   Vec3<Real> force = k_zero_vector, torque[k_kinds][2] = {};
   if (work.points != 0) {
     force = {work.impulse[0], work.impulse[1], work.impulse[2]};
@@ -104,7 +141,10 @@ inline bool gather(const JointWork& work, JointBody& a, JointBody& b) {
   for (uint32_t k = first_other(work); k < work.rows; ++k) {
     const JointRow& row = work.row[k];
     const int kind = DETENT_FIXED ? row_kind(row) : 0;
-    force += row.axis * work.impulse[k];
+    if (kind == 1)
+      kinds = 2;
+    else
+      force += row.axis * work.impulse[k];
     for (int end = 0; end < 2; ++end) torque[kind][end] += row.arm[end] * work.impulse[k];
   }
   bool fits = true;
@@ -112,8 +152,7 @@ inline bool gather(const JointWork& work, JointBody& a, JointBody& b) {
     const Scaled factor = scaled_by_power(body.inverse_mass, power);
 #if DETENT_FIXED
     bool saturated = false;
-    const Vec3<Real> v = {multiply(sum.x, factor, saturated), multiply(sum.y, factor, saturated),
-                          multiply(sum.z, factor, saturated)};
+    const Vec3<Real> v = multiply(sum, factor, saturated);
     fits = fits && !saturated && greatest(v) <= k_gathered_max;
     if (!fits) return;  // the sum could overflow
 #else
@@ -126,11 +165,12 @@ inline bool gather(const JointWork& work, JointBody& a, JointBody& b) {
     JointBody& body = end == 0 ? a : b;
     if (body.mobile == 0) continue;
     add(body, end == 0 ? -force : force, impulse_power(work, 0), body.push);
-    for (int kind = 0; kind < k_kinds; ++kind)
+    for (int kind = 0; kind < kinds; ++kind)
       add(body, end == 0 ? -torque[kind][end] : torque[kind][end], impulse_power(work, kind) + body.above, body.twist);
   }
   return fits;
 }
+#endif
 
 /// Chooses the units of a joint's impulses, 2^power reference masses, for which the responses of its rows are near 2^5:
 /// so the impulses between heavy bodies stay in range, even in an assembly with light bodies. Range: load_inertia() and
@@ -147,7 +187,7 @@ class JointFactor {
 
   /// Makes the factor from the current rows and the bodies' inertias.
   void make();
-  /// Makes the factor again with softer rows. Returns false if the rows are already soft.
+  /// Makes the factor again with softer rows. Returns false if the rows are as soft as they can be.
   bool make_softer();
   /// Multiplies the right-hand sides b by L^-1. Returns b . (K + S)^-1 b. This is twice the least energy of any motion
   /// with the row speeds b.
@@ -160,13 +200,28 @@ class JointFactor {
   JointStage& stage_;
   Span<const uint32_t> order_;
   bool dropped_;
-  bool softer_ = false;
+  int softer_calls_ = 0;
 
   void make_up(uint32_t index);
   void start(JointWork& work);
+  void add_responses(JointWork& work);
   void eliminate(JointWork& work);
+  /// A diagonal element of the joint's own block.
+  Real& diagonal(JointWork& work, uint32_t row) {
+#if DETENT_JOINT_LANES
+    return lanes_of(stage_, work).upper[row][row];
+#else
+    return work.response[row][row];
+#endif
+  }
   const JointCoupling* find(uint32_t one, uint32_t other) const;
   Real* block_of(const JointCoupling& coupling) { return stage_.numbers.data + coupling.block; }
+#if DETENT_JOINT_LANES
+  template <bool wide>
+  void add_responses_of_end(JointWork& work, uint32_t end);
+  template <bool wide>
+  void eliminate_own(JointWork& work);
+#endif
 };
 
 }  // namespace DETENT_NAMESPACE

@@ -17,10 +17,13 @@ constexpr uint32_t k_degrees = 32;
 class Eliminator {
  public:
   Eliminator(JointStage& stage, uint32_t couplings_used, uint32_t numbers_used)
-      : couplings(couplings_used), numbers(numbers_used), stage_(stage) {
+      : couplings(couplings_used),
+        numbers(numbers_used),
+        stage_(stage),
+        numbers_max_(k_may_have_joint_lanes ? stage.numbers.count / 9 * 4 : stage.numbers.count) {
     for (uint32_t& head : head_) head = k_no_link;
   }
-  uint32_t couplings, numbers;  ///< number used so far
+  uint32_t couplings, numbers;  ///< number used so far; numbers without the rounding of rows for lanes
   uint32_t dropped = 0;
 
   /// Couples all joints of a body with each other.
@@ -39,8 +42,13 @@ class Eliminator {
 
   /// Eliminates the joints of an assembly, and overwrites `order` with the order of elimination.
   void run(Span<uint32_t> order) {
-    const uint32_t count = stage_.work[order[0]].assembly_joints;
-    each_mobile_body(order, stage_, [&](const JointBody& body) { couple_all(body); });
+    const uint32_t count = stage_.work[order[0]].assembly_joints, first_body = stage_.work[order[0]].mark;
+    for (const uint32_t joint : order) {
+      for (uint32_t end = 0; end < 2; ++end) {
+        const JointBody& body = stage_.bodies[stage_.work[joint].body[end]];
+        if (body.mobile != 0 && body.first == 2 * joint + end) couple_all(body);
+      }
+    }
     for (uint32_t k = order.count; k-- > 0;) enter(order[k]);
     for (uint32_t k = 0; k < order.count; ++k) {
       const uint32_t joint = least();
@@ -49,14 +57,15 @@ class Eliminator {
       eliminate(joint, k);
     }
     stage_.work[order[0]].assembly_joints = count;
+    stage_.work[order[0]].mark = first_body;
   }
 
-  /// Makes each joint's list of couplings with joints that are eliminated later, and assigns their blocks.
-  void list_columns(uint32_t from) {
+  /// Makes each joint's list of couplings with joints that are eliminated later, and assigns their blocks: the last
+  /// numbers before `end`, which becomes the start of them.
+  void list_columns(uint32_t from, uint32_t& end) {
     for (uint32_t k = from; k < couplings; ++k) {
       for (const uint32_t joint : stage_.couplings[k].joint) stage_.work[joint].coupling = k_no_link;
     }
-    uint32_t end = numbers;
     for (uint32_t k = couplings; k-- > from;) {
       JointCoupling& coupling = stage_.couplings[k];
       if (stage_.work[coupling.joint[1]].place < stage_.work[coupling.joint[0]].place) {
@@ -65,7 +74,7 @@ class Eliminator {
         coupling.joint[0] = first;
       }
       JointWork &first = stage_.work[coupling.joint[0]], &other = stage_.work[coupling.joint[1]];
-      end -= first.rows_max * other.rows_max;
+      end -= first.rows_max * block_stride(other.rows_max);
       coupling.block = end;
       coupling.next[0] = first.coupling;
       first.coupling = k;
@@ -74,6 +83,7 @@ class Eliminator {
 
  private:
   JointStage& stage_;
+  uint32_t numbers_max_;
   /// First joint in the list of each degree.
   uint32_t head_[k_degrees];
 
@@ -90,7 +100,7 @@ class Eliminator {
   void couple(uint32_t one, uint32_t other) {
     JointWork &p = stage_.work[one], &q = stage_.work[other];
     const uint32_t size = p.rows_max * q.rows_max;
-    if (couplings == stage_.couplings.count || numbers + size > stage_.numbers.count) {
+    if (couplings == stage_.couplings.count || numbers + size > numbers_max_) {
       ++dropped;
       return;
     }
@@ -133,15 +143,25 @@ class Eliminator {
     return head_[degree];
   }
 
+  /// The next joint of a list of couplings that is not eliminated; k_no_link after the last. Moves `link` behind it,
+  /// and takes the joints before it out of the list.
+  DETENT_SHARED uint32_t next_neighbour(uint32_t*& link) {
+    while (*link != k_no_link) {
+      JointCoupling& coupling = stage_.couplings[*link / 2];
+      const uint32_t end = *link % 2, other = coupling.joint[1 - end];
+      if (stage_.work[other].place == k_no_link) {
+        link = &coupling.next[end];
+        return other;
+      }
+      *link = coupling.next[end];
+    }
+    return k_no_link;
+  }
   /// Visits the neighbours of a joint that are not eliminated.
   template <class Visit>
   void each_neighbour(uint32_t joint, const Visit& visit) {
-    for (uint32_t link = stage_.work[joint].coupling; link != k_no_link;) {
-      const JointCoupling& coupling = stage_.couplings[link / 2];
-      const uint32_t other = coupling.joint[1 - link % 2];
-      link = coupling.next[link % 2];
-      if (stage_.work[other].place == k_no_link) visit(other);
-    }
+    uint32_t* link = &stage_.work[joint].coupling;
+    for (uint32_t other; (other = next_neighbour(link)) != k_no_link;) visit(other);
   }
 
   /// Eliminates a joint: couples its neighbours with each other, if they are not coupled yet.
@@ -164,10 +184,10 @@ class Eliminator {
   }
 };
 
-/// Appends the joints of an assembly to `order`, in the order of their slots. `joint` is the lowest of them. Returns
-/// their number.
+/// Appends the joints of an assembly to `order`, in the order of their slots. `joint` is the lowest of them. Links the
+/// mobile bodies of the assembly. Returns the number of joints.
 uint32_t list_assembly(uint32_t joint, JointStage& stage, uint32_t* order) {
-  uint32_t count = 0;
+  uint32_t count = 0, last_body = k_no_link;
   const auto add = [&](uint32_t index) {
     uint32_t& place = stage.work[index].place;
     if (place == k_no_link) order[count++] = index;
@@ -177,24 +197,15 @@ uint32_t list_assembly(uint32_t joint, JointStage& stage, uint32_t* order) {
   for (uint32_t k = 0; k < count; ++k) {
     for (const uint32_t at : stage.work[order[k]].body) {
       JointBody& body = stage.bodies[at];
-      if (body.mobile == 0 || body.owner != k_no_link) continue;
-      body.owner = body.first;
+      if (body.mobile == 0 || body.next != k_no_link) continue;
+      (last_body == k_no_link ? stage.work[joint].mark : stage.bodies[last_body].next) = at;
+      body.next = last_body = at;
       for (uint32_t link = body.first; link != k_no_link; link = stage.work[link / 2].next[link % 2]) add(link / 2);
     }
   }
   heap_sort(Span<uint32_t>{order, count}, [](uint32_t a, uint32_t b) { return a < b; });
   stage.work[joint].assembly_joints = count;
   return count;
-}
-
-/// Assigns each mobile body of an assembly to its first joint in the order.
-void assign_bodies(Span<const uint32_t> order, JointStage& stage) {
-  for (uint32_t k = order.count; k-- > 0;) {
-    for (uint32_t end = 2; end-- > 0;) {
-      JointBody& body = stage.bodies[stage.work[order[k]].body[end]];
-      if (body.mobile != 0) body.owner = 2 * order[k] + end;
-    }
-  }
 }
 
 /// Chooses the reference mass of the assembly such that the largest response of its bodies is near 2^k_response_bits,
@@ -265,14 +276,13 @@ uint32_t order_joints(const StepSettings& settings, const SolverBodies& bodies, 
     Island& island = island_of(stage.work[index]);
     island.joint_count += list_assembly(index, stage, &stage.order[island.first_joint + island.joint_count]);
   }
-  uint32_t couplings = 0, numbers = 0, dropped = 0;
+  uint32_t couplings = 0, numbers = 0, dropped = 0, blocks = stage.numbers.count;
   for (Island& island : islands) {
     island.joint_couplings_dropped = 0;
     each_assembly(island, stage, [&](Span<uint32_t> order) {
       Eliminator eliminator(stage, couplings, numbers);
       eliminator.run(order);
-      eliminator.list_columns(couplings);
-      assign_bodies(order, stage);
+      eliminator.list_columns(couplings, blocks);
       weigh(bodies, order, stage);
       couplings = eliminator.couplings;
       numbers = eliminator.numbers;

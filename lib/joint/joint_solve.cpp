@@ -200,11 +200,15 @@ struct Solver {
 
   /// Computes J v for a joint's rows.
   void speeds(const JointWork& work, Real (&speed)[k_joint_rows_max]) const {
+#if DETENT_JOINT_LANES
+    with_width(is_wide(work), [&](auto width) { joint_speeds<decltype(width)::wide>(stage, work).put(speed); });
+#else
     Real of_a[k_joint_rows_max];
     const JointBody &a = end_of(work, 0), &b = end_of(work, 1);
     show(work, work.rows, 0, a.linear_velocity, a.angular_velocity, of_a);
     show(work, work.rows, 1, b.linear_velocity, b.angular_velocity, speed);
     for (uint32_t k = 0; k < work.rows; ++k) speed[k] -= of_a[k];
+#endif
   }
   /// The exponent of the power of two between the speed of a row and its right-hand side.
   static int power_of(const JointWork& work, uint32_t row) { return unit_power(work, row) - k_impulse_power; }
@@ -213,6 +217,21 @@ struct Solver {
     const int power = power_of(work, row);
     clamped += clamp_component(speed, scale_by_power(Real(1.0), k_side_power_max - (power > 0 ? power : 0)));
     return scale_by_power(speed, power);
+  }
+
+  /// Sets the right-hand sides for the changes of the rows' speeds from `before` to `after`.
+  void set_sides(JointWork& work, const Real (&after)[k_joint_rows_max], const Real (&before)[k_joint_rows_max]) {
+#if DETENT_JOINT_LANES
+    const auto set = [&](auto width) {
+      using Lanes = RowLanes<decltype(width)::wide>;
+      const Lanes change = Lanes::from_six(after) - Lanes::from_six(before);
+      if (!change.is_within(scale_by_power(Real(1.0), k_side_power_max))) return false;
+      change.put(work.side);
+      return true;
+    };
+    if (is_wide(work) ? set(Width<true>()) : set(Width<false>())) return;
+#endif
+    for (uint32_t k = 0; k < work.rows; ++k) work.side[k] = side_of(work, k, after[k] - before[k]);
   }
 
   /// Whether a body rotates by more than 2^-k_straight_power rad in the substep. If not, the curvature of the anchors'
@@ -258,7 +277,7 @@ struct Solver {
     each_joint([&](JointWork& work) {
       Real speed[k_joint_rows_max];
       speeds(work, speed);
-      for (uint32_t k = 0; k < work.rows; ++k) work.side[k] = side_of(work, k, work.target[k] - speed[k]);
+      set_sides(work, work.target, speed);
       for (int i = 0; i < k_free_motions; ++i) {
         const uint32_t row = work.driven[i];
         if (row != k_joint_rows_max) work.side[row] -= work.spring[row] * work.driven_total[i];
@@ -360,7 +379,7 @@ struct Solver {
   bool gather_joints() {
     bool fits = true;
     each_mobile([&](JointBody& body) { body.push = body.twist = k_zero_vector; });
-    each_joint([&](const JointWork& work) { fits = fits && gather(work, end_of(work, 0), end_of(work, 1)); });
+    each_joint([&](const JointWork& work) { fits = fits && gather(stage, work); });
     each_mobile([&](const JointBody& body) { fits = fits && angular_velocities_within(body, body.twist); });
     return fits;
   }
@@ -734,8 +753,7 @@ uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, co
 
 uint32_t shift_joints(const SolverBodies& bodies, const Island& island, JointStage& stage) {
   bool saturated = false;
-  const Span<const uint32_t> order = {stage.order.data + island.first_joint, island.joint_count};
-  each_mobile_body(order, stage, [&](const JointBody& body) {
+  const auto shift = [&](const JointBody& body) {
     BodyWork& now = bodies.work[body.slot];
     BodyMotion& motion = bodies.motions[body.slot];
     const Vec3<Real> before = body.angular_momentum_before;  // with the body's own inertia
@@ -749,7 +767,8 @@ uint32_t shift_joints(const SolverBodies& bodies, const Island& island, JointSta
     }
     motion.angular_momentum = lent_angular_momentum(body, motion.angular_momentum, saturated);
     if (DETENT_FIXED) now.contact_angular_momentum += before - motion.angular_momentum;
-  });
+  };
+  each_assembly(island, stage, [&](Span<const uint32_t> order) { each_mobile_body(order, stage, shift); });
   return saturated ? 1 : 0;
 }
 

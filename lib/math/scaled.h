@@ -93,13 +93,18 @@ DETENT_PASSING inline Real multiply(Real a, Scaled b) {
 #endif
 /// 1 / a. Range: a > 0. Rounding: relative error <= 2^-29. Overflow: none.
 DETENT_PASSING inline Scaled scaled_reciprocal(Real a) { return words::to_scaled(words::scaled_reciprocal(a.raw)); }
+#if DETENT_NATIVE_WIDE
+/// Whether the product of a with a mantissa, times 2^-n, fits a Real: mantissas are below 2^31, so if a is below 2^(n +
+/// 31), the rounded product is at most 2^62.
+constexpr bool fits_scaled(Real a, int n) {
+  return n > 0 && n <= 64 && static_cast<uint64_t>((a.raw >> (n < 32 ? n + 31 : 63)) + 1) <= 1;
+}
+#endif
 /// a b. Rounding: to nearest, ties up. Overflow: clamps to Real's range and sets `saturated` (else untouched).
 DETENT_PASSING inline Real multiply(Real a, Scaled b, bool& saturated) {
 #if DETENT_NATIVE_WIDE
-  // b's mantissa is below 2^31. So if a is below 2^(n + 31), the rounded product is at most 2^62 and fits.
   const int n = -b.exponent;
-  if (n > 0 && n <= 64 && static_cast<uint64_t>((a.raw >> (n < 32 ? n + 31 : 63)) + 1) <= 1)
-    return Real::from_raw(Int128::product(a.raw, b.mantissa).round_shift(n));
+  if (fits_scaled(a, n)) return Real::from_raw(Int128::product(a.raw, b.mantissa).round_shift(n));
 #endif
   return Real::from_raw(words::multiply_raw(a.raw, words::word_of(b), saturated));
 }
@@ -129,6 +134,17 @@ constexpr Unit to_unit(Scaled a) { return a; }
 /// Each component of v times a, as multiply(v.x, a).
 DETENT_SHARED inline Vec3<Real> multiply(const Vec3<Real>& v, Scaled a) {
   return {multiply(v.x, a), multiply(v.y, a), multiply(v.z, a)};
+}
+/// Each component of v times a, as multiply(v.x, a, saturated).
+DETENT_SHARED inline Vec3<Real> multiply(const Vec3<Real>& v, Scaled a, bool& saturated) {
+#if DETENT_FIXED && DETENT_NATIVE_WIDE
+  const int n = -a.exponent;
+  if (fits_scaled(v.x, n) && fits_scaled(v.y, n) && fits_scaled(v.z, n)) {
+    const auto part = [&](Real x) { return Real::from_raw(Int128::product(x.raw, a.mantissa).round_shift(n)); };
+    return {part(v.x), part(v.y), part(v.z)};
+  }
+#endif
+  return {multiply(v.x, a, saturated), multiply(v.y, a, saturated), multiply(v.z, a, saturated)};
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -32,6 +32,7 @@ inline uint32_t clamp_component(Real& value, Real limit) {
   return changed ? 1 : 0;
 }
 inline uint32_t clamp_vector(Vec3<Real>& v, Real limit) {
+  if (!DETENT_FIXED && abs(v.x) <= limit && abs(v.y) <= limit && abs(v.z) <= limit) return 0;
   return clamp_component(v.x, limit) + clamp_component(v.y, limit) + clamp_component(v.z, limit);
 }
 

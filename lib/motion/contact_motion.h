@@ -10,8 +10,8 @@
 ///     linear:  n, t, s . ((v_B + w_B x r_B) - (v_A + w_A x r_A)), m/s
 ///     angular: n, t, s . (w_B - w_A) u, m/s; u is the pair's unit of length, m
 ///
-/// The code is generic. `Kind` names the types and operations to solve one contact at a time (One), or four contacts at
-/// once (Four, lib/solver/lane_contact.h).
+/// The code is generic. `Kind` names the types and operations to solve one contact at a time (One), or several contacts
+/// at once (LaneKind, lib/solver/lane_contact.h).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -69,6 +69,7 @@ struct One {
 
   static Factor zero() { return k_no_ulps; }
   static Unit unit(Unit value) { return value; }
+  static constexpr bool has_point(const Contact&, uint32_t) { return true; }
 #if DETENT_FIXED
   using Wide = int64_t;
   // The factor of the points' rows. Mantissas of the coupling have 24 fraction bits, L has 20, inverse pivots 16.

@@ -50,14 +50,13 @@ StepSettings step_settings(const WorldState& world) {
   settings.tick_time = world.tick_time;
   settings.sleeping = world.sleeping != 0;
   settings.continuous = world.continuous != 0;
-  settings.lanes = false;
+  settings.lanes = 1;
 #if DETENT_TASKS
   settings.team = nullptr;
 #endif
   const Scaled rate = divide(scaled_from(world.tick_time), scaled_from(k_two_pi * world.contact_frequency));
   settings.substeps_per_rate = multiply(rate, rate);
   settings.resting_penetration = scaled_from(world.resting_penetration);
-  set_substeps(world.substeps == 0 ? 1 : world.substeps, settings);
   settings.relaxation = fine(unit_from_real(world.relaxation, 0));
   settings.gravity = world.gravity;
   settings.gravity_size = max(length(world.gravity), Real(1.0));
@@ -68,13 +67,9 @@ StepSettings step_settings(const WorldState& world) {
   settings.reduction = static_cast<ManifoldReduction>(world.reduction);
   settings.convergence = world.convergence;
   settings.post_stabilises = static_cast<Stabilisation>(world.stabilisation) == Stabilisation::post;
-  if (settings.post_stabilises) {
-    settings.dynamic_softness = settings.static_softness = {Unit(0.0), Unit(1.0 / 256)};
-    return settings;
-  }
-  settings.dynamic_softness = softness(world.contact_frequency, world.damping_ratio * k_dynamic_damping);
-  settings.static_softness =
-      softness(scale_by_power(world.contact_frequency, 1), world.damping_ratio * k_static_damping);
+  settings.contact_frequency = world.contact_frequency;
+  settings.damping_ratio = world.damping_ratio;
+  set_substeps(world.substeps == 0 ? 1 : world.substeps, false, settings);
   return settings;
 }
 
@@ -82,14 +77,25 @@ Real fall_speed(const StepSettings& settings, Real extent) {
   return scale_by_power(square_root(scale_by_power(settings.gravity_size, -10) * extent), 5);
 }
 
-void set_substeps(uint32_t substeps, StepSettings& settings) {
+void set_substeps(uint32_t substeps, bool jointed, StepSettings& settings) {
   settings.substeps = substeps;
-  settings.time = divide(settings.tick_time, real_from(substeps));
+  settings.jointed = jointed;
+  const Real count = real_from(substeps);
+  settings.time = divide(settings.tick_time, count);
   settings.share = divide(Scaled(1.0), scaled_from_count(substeps));
   settings.rate = divide(Scaled(1.0), scaled_from(settings.time));
   settings.gap_max = settings.time * Real(32768.0);
   settings.rate_exponent = exponent_of(settings.rate);
   settings.rate_mantissa = fine(to_unit(scaled_by_power(settings.rate, -settings.rate_exponent)));
+  if (settings.post_stabilises) {
+    settings.dynamic_softness = settings.static_softness = {Unit(0.0), Unit(1.0 / 256)};
+    return;
+  }
+  Real frequency = settings.contact_frequency;
+  if (jointed && substeps < k_jointed_stiffness)
+    frequency = frequency * divide(Real(double{k_jointed_stiffness}), count);
+  settings.dynamic_softness = softness(frequency, settings.damping_ratio * k_dynamic_damping);
+  settings.static_softness = softness(scale_by_power(frequency, 1), settings.damping_ratio * k_static_damping);
 }
 
 Scaled scaled_from_count(uint32_t count) {

@@ -29,22 +29,27 @@ struct StepSettings {
   bool post_stabilises;
   bool sleeping;
   bool continuous;  ///< continuous collision is on
-  /// Solve four contacts at once where possible (World::lanes). This does not change the result.
-  bool lanes;
+  /// The most contacts that are solved at once (World::lanes): 1, 4 or 8. It does not change the result.
+  uint32_t lanes;
 #if DETENT_TASKS
   Team* team;  ///< the threads that share loops; null: none. This does not change the result.
 #else
   static constexpr Team* team = nullptr;
 #endif
-  Real tick_time;      ///< s
-  uint32_t substeps;   ///< this and the members down to gap_max are set by set_substeps()
-  Real time;           ///< length of a substep, s
-  Scaled rate;         ///< substeps per second
-  Scaled share;        ///< length of a substep over that of a tick
-  Unit rate_mantissa;  ///< rate = rate_mantissa 2^rate_exponent
+  Real tick_time;          ///< s
+  Real contact_frequency;  ///< of WorldDef
+  Real damping_ratio;      ///< of WorldDef
+  uint32_t substeps;       ///< this and the members down to static_softness are set by set_substeps()
+  bool jointed;            ///< the island has joints
+  Real time;               ///< length of a substep, s
+  Scaled rate;             ///< substeps per second
+  Scaled share;            ///< length of a substep over that of a tick
+  Unit rate_mantissa;      ///< rate = rate_mantissa 2^rate_exponent
   int32_t rate_exponent;
   /// The gap, m, that a speed of 2^15 m/s closes in a substep.
   Real gap_max;
+  Softness dynamic_softness;  ///< contacts between two dynamic bodies
+  Softness static_softness;   ///< all other contacts: twice the frequency, less damped
   Unit relaxation;
   Vec3<Real> gravity;  ///< m/s^2
   /// Magnitude of gravity, m/s^2, but at least 1. Used to derive limits of speeds.
@@ -59,9 +64,10 @@ struct StepSettings {
   /// Greatest motion at which a manifold is recycled, as a fraction of the smaller extent; 0: contact points are found
   /// anew in each tick.
   Real contact_recycle_distance;
-  Softness dynamic_softness;  ///< contacts between two dynamic bodies
-  Softness static_softness;   ///< all other contacts: twice the frequency, less damped
 };
+
+/// Contacts of an island with joints are as stiff as this number of substeps would make them.
+inline constexpr uint32_t k_jointed_stiffness = 24;
 
 StepSettings step_settings(const WorldState& world);
 /// The same settings, for loops that `team` shares.
@@ -81,8 +87,8 @@ inline Real speed_over(const StepSettings& settings, Real length) {
 }
 /// The speed, m/s, after a fall from rest by `extent`, m. Used to derive limits of speeds. Range: extent <= 2^15 m.
 Real fall_speed(const StepSettings& settings, Real extent);
-/// Sets the settings that depend on the number of substeps. Range: [1, 64].
-void set_substeps(uint32_t substeps, StepSettings& settings);
+/// Sets the settings that depend on the number of substeps, and on whether the island has joints. Range: [1, 64].
+void set_substeps(uint32_t substeps, bool jointed, StepSettings& settings);
 /// Converts a count, clamped to 2^17 - 1, to a Scaled.
 Scaled scaled_from_count(uint32_t count);
 

@@ -23,9 +23,9 @@ uint32_t pair_hash(Span<const BodyProperties> properties, const ContactState& co
 }
 
 /// The kind of work of a contact. Contacts of one colour may be solved in any order. Those of the same kind are sorted
-/// together, so that four can be solved at once.
+/// together, so that several can be solved at once.
 uint16_t kind_of(const ContactWork& contact) {
-  return static_cast<uint16_t>(contact.state.point_count | contact.angular_rows << 3);
+  return static_cast<uint16_t>(contact.state.point_count | contact.angular_rows << k_rows_shift);
 }
 
 /// Takes the lowest colour that is free at both bodies and returns it. Returns k_colour_overflow if there is none.

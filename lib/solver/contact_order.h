@@ -10,9 +10,13 @@ inline namespace DETENT_NAMESPACE {
 /// dynamic body, except contacts of this colour.
 inline constexpr uint16_t k_colour_overflow = 63;
 
-/// ContactOrder::kind without the place in a group, and the places: the first of four contacts that are solved at once,
-/// and the three after it.
-inline constexpr uint16_t k_kind_mask = 0xff, k_first_of_four = 0x100, k_rest_of_four = 0x200;
+/// ContactOrder::kind: the number of points, the number of angular rows from the bit k_rows_shift on, and the place in
+/// a group of contacts that are solved at once in the upper byte. This place is the number of the contacts, 2 to 8, for
+/// the first of them, k_in_group for the others, and 0 for a contact that is solved alone.
+inline constexpr uint32_t k_point_mask = 7;
+inline constexpr int k_rows_shift = 3, k_group_shift = 8;
+inline constexpr uint32_t k_in_group = 1;
+constexpr uint32_t group_size(const ContactOrder& entry) { return uint32_t{entry.kind} >> k_group_shift; }
 
 /// Computes the order in which the solver visits contacts. First the contacts are sorted by the hash of their bodies'
 /// ids; contacts with equal hashes keep their order. In this order, each contact takes the lowest colour that is free
@@ -27,7 +31,7 @@ uint32_t order_contacts(Span<const BodyProperties> properties, Span<const Contac
                         Span<ContactOrder> order);
 
 /// Sorts the islands, so that islands which may be solved together follow each other: islands without joints and with
-/// the same number of substeps. The contacts of such a group are sorted together, by colour first, so that four
+/// the same number of substeps. The contacts of such a group are sorted together, by colour first, so that several
 /// contacts can be solved at once even if the islands are small. The result has the same bits, because islands share no
 /// dynamic body.
 ///

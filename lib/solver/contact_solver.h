@@ -268,7 +268,7 @@ struct ContactSolver {
       apart[i] = separation > none;
       const Factor length = select(apart[i], separation, Factor(held(times(separation, soft.rate))));
       // In the block of the lengths, times 2^-rate_exponent.
-      push[i] = held(times(length, Kind::unit(settings.rate_mantissa)));
+      push[i] = select(Kind::has_point(contact, i), held(times(length, Kind::unit(settings.rate_mantissa))), none);
       least = min(least, push[i]);
     }
     typename Kind::Block room;

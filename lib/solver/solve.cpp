@@ -117,24 +117,41 @@ bool has_settled(const SolverBodies& bodies, Span<const uint32_t> island, Real e
   return true;
 }
 
-/// Marks the contacts of the island that are solved four at once: those that follow each other with the same colour and
-/// kind. Puts them into lanes.
+/// Whether two contacts may be solved at once: they have the same colour and number of angular rows, and both have one
+/// point or both have more.
+bool may_be_solved_at_once(const ContactOrder& a, const ContactOrder& b) {
+  const bool single_a = (a.kind & k_point_mask) == 1, single_b = (b.kind & k_point_mask) == 1;
+  return a.colour == b.colour && a.kind >> k_rows_shift == b.kind >> k_rows_shift && single_a == single_b;
+}
+
+/// The number of contacts at the start of `order` that may be solved at once, at least 1.
+uint32_t solved_at_once(const StepSettings& settings, Span<const ContactOrder> order) {
+  if (order[0].colour == k_colour_overflow) return 1;
+  uint32_t count = 1;
+  while (count < settings.lanes && count < order.count && may_be_solved_at_once(order[0], order[count])) ++count;
+  return count;
+}
+
+/// Marks the contacts of the island that are solved at once, and puts them into lanes. A group that leaves lanes empty
+/// needs space that later groups do not need; without it, fewer contacts are solved at once.
 void put_all_in_lanes(const StepSettings& settings, const SolverBodies& bodies, const IslandContacts& all) {
   if (!uses_lanes(settings)) return;
-  for (uint32_t i = 0; i + 4 <= all.order.count;) {
-    ContactOrder* const four = all.order.data + i;
-    if (four[0].colour != four[3].colour || four[0].kind != four[3].kind || four[0].colour == k_colour_overflow) {
-      ++i;
-      continue;
-    }
-    four[0].kind |= k_first_of_four;
-    for (int k = 1; k < 4; ++k) four[k].kind |= k_rest_of_four;
-    i += 4;
+  uint32_t used = 0;
+  for (uint32_t i = 0, count = 0; i < all.order.count; i += count) {
+    ContactOrder* const group = all.order.data + i;
+    const uint32_t rest = all.order.count - i;
+    count = solved_at_once(settings, {group, rest});
+    while (count > 1 && used + lane_spaces(count) + (rest - count) / 4 > all.lanes.count) count = count > 4 ? 4 : 1;
+    if (count == 1) continue;
+    for (uint32_t k = 0; k < count; ++k)
+      group[k].kind |= static_cast<uint16_t>((k == 0 ? count : k_in_group) << k_group_shift);
+    group[0].key = used;
+    used += lane_spaces(count);
   }
   share(settings.team, all.order.count, k_contacts_shared, [&](uint32_t first, uint32_t last) {
     for (uint32_t i = first; i < last; ++i) {
-      if ((all.order[i].kind & k_first_of_four) != 0)
-        put_in_lanes(bodies, all.contacts, &all.order[i], all.lanes[i / 4]);
+      const uint32_t count = group_size(all.order[i]);
+      if (count > 1) put_in_lanes(bodies, all.contacts, {all.order.data + i, count}, &all.lanes[all.order[i].key]);
     }
   });
 }
@@ -143,25 +160,27 @@ void take_all_from_lanes(const StepSettings& settings, const IslandContacts& all
   if (!uses_lanes(settings)) return;
   share(settings.team, all.order.count, k_contacts_shared, [&](uint32_t first, uint32_t last) {
     for (uint32_t i = first; i < last; ++i) {
-      if ((all.order[i].kind & k_first_of_four) != 0) take_from_lanes(all.lanes[i / 4], all.contacts);
+      const uint32_t count = group_size(all.order[i]);
+      if (count > 1) take_from_lanes(&all.lanes[all.order[i].key], count, all.contacts);
     }
   });
 }
 
-/// What a pass does with a contact, and with the lanes of four contacts.
+/// What a pass does with a contact, and with a group of contacts in lanes.
 struct ContactPass {
   void (*one)(ContactSolver<One>& contact);
-  void (*four)(const StepSettings& settings, const SolverBodies& bodies, LaneSpace& lanes);
+  void (*group)(const StepSettings& settings, const SolverBodies& bodies, LaneSpace* lanes, uint32_t count);
 };
 
-/// One pass over contacts in their order, from `first` to `last`. Of the groups of four, those that begin in this range
-/// take part.
+/// One pass over contacts in their order, from `first` to `last`. Of the groups, those that begin in this range take
+/// part.
 void pass_in_order(const StepSettings& settings, const SolverBodies& bodies, const IslandContacts& all, uint32_t first,
                    uint32_t last, const ContactPass& pass) {
   for (uint32_t i = first; i < last; ++i) {
     const ContactOrder& entry = all.order[i];
-    if (uses_lanes(settings) && entry.kind > k_kind_mask) {
-      if ((entry.kind & k_first_of_four) != 0) pass.four(settings, bodies, all.lanes[i / 4]);
+    const uint32_t count = uses_lanes(settings) ? group_size(entry) : 0;
+    if (count != 0) {
+      if (count != k_in_group) pass.group(settings, bodies, &all.lanes[entry.key], count);
       continue;
     }
     ContactWork& contact = all.contacts[entry.contact];
@@ -215,21 +234,21 @@ void place_kinematic(const BodyProperties& properties, const BodyMotion& motion,
 /// Recomputes the responses of contacts whose bodies have joints, so that contacts and joints use the same inertias.
 void renew_responses(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                      const IslandContacts& all) {
-  uint32_t left = 0;  // contacts of the current four that follow
+  uint32_t start = 0;  // the first contact of the current group
   bool renewed = false;
   for (uint32_t i = 0; i < all.order.count; ++i) {
     ContactWork& contact = all.contacts[all.order[i].contact];
     const uint32_t a = contact.state.body_a, b = contact.state.body_b;
-    if ((all.order[i].kind & k_first_of_four) != 0) {
-      left = 4;
+    if (group_size(all.order[i]) != k_in_group) {
+      start = i;
       renewed = false;
     }
     if (has_renewed_inverse_inertia(bodies.work[a], stage) || has_renewed_inverse_inertia(bodies.work[b], stage)) {
       renew_response(bodies.work[a].inverse_inertia, bodies.work[b].inverse_inertia, contact);
       renewed = true;
     }
-    if (uses_lanes(settings) && left != 0 && --left == 0 && renewed)
-      renew_lanes(bodies, all.contacts, all.lanes[(i - 3) / 4]);
+    const uint32_t count = uses_lanes(settings) ? group_size(all.order[start]) : 0;
+    if (i + 1 == start + count && renewed) renew_lanes(bodies, all.contacts, &all.lanes[all.order[start].key], count);
   }
 }
 
@@ -336,7 +355,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
   }
   take_all_from_lanes(settings, all);
   StepSettings one_by_one = settings;
-  one_by_one.lanes = false;
+  one_by_one.lanes = 1;
   if (joints.code != nullptr) renew_responses(one_by_one, bodies, *joints.stage, all);
   pass_over(one_by_one, bodies, all, k_rebound);
   if (settings.post_stabilises) count.clamped += post_stabilise(settings, bodies, island, order, all.contacts);

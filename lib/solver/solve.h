@@ -26,8 +26,8 @@ struct IslandJoints {
   JointStage* stage = nullptr;
 };
 
-/// The contacts of an island in their order, and the work space of those that are solved four at once: that of
-/// order[i] to order[i + 3] is lanes[i / 4].
+/// The contacts of an island in their order, and the work space of the groups that are solved at once: that of a group
+/// begins with lanes[key], with the key of the group's first contact.
 struct IslandContacts {
   Span<ContactOrder> order;
   Span<ContactWork> contacts;

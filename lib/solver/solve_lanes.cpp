@@ -7,69 +7,42 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-DETENT_LANES_INLINE void clamp_lane(Lanes (&v)[2], Lanes limit, int lane) {
-#if DETENT_FIXED
-  Factor own[2] = {static_cast<Factor>(v[0].v[lane]), static_cast<Factor>(v[1].v[lane])};
-  clamp_to_circle(own, static_cast<Factor>(limit.v[lane]));
-#else
-  Factor own[2] = {v[0].v[lane], v[1].v[lane]};
-  clamp_to_circle(own, limit.v[lane]);
-#endif
-  v[0].v[lane] = own[0];
-  v[1].v[lane] = own[1];
-}
-
-}  // namespace
-
-/// Clamps v to the circle of radius `limit` in each lane. Only few contacts slide, so their lanes are processed one by
-/// one.
-DETENT_LANES_INLINE void clamp_to_circle(Lanes (&v)[2], Lanes limit) {
-  const Lanes none = lanes_of(LaneNumber{0});
-  const Lanes size = select(none > v[0], -v[0], v[0]) + select(none > v[1], -v[1], v[1]);
-  const LaneMask out = size > limit;
-  if (!any(out)) return;
-  for (int lane = 0; lane < 4; ++lane) {
-    if (out.v[lane] != 0) clamp_lane(v, limit, lane);
-  }
-}
-
-namespace {
-
-using Contacts = const ContactWork* const (&)[4];
+template <uint32_t count>
+using Contacts = const ContactWork* const (&)[count];
 
 /// Words of ContactWork, beginning with a given member.
-template <unsigned count>
+template <uint32_t count, uint32_t size>
 struct Words {
-  LaneWords<count> words;
+  LaneWords<count, size> words;
   uint32_t first;
 
-  DETENT_LANES_INLINE static const uint8_t* start(const ContactWork* from, uint32_t offset) {
-    return reinterpret_cast<const uint8_t*>(from) + offset;
-  }
-  DETENT_LANES_INLINE Words(Contacts from, uint32_t offset)
-      : words({start(from[0], offset), start(from[1], offset), start(from[2], offset), start(from[3], offset)}),
+  DETENT_LANES_INLINE Words(Contacts<count> from, uint32_t offset)
+      : words(EachLane<const uint8_t*, count>([&](uint32_t k) {
+                return reinterpret_cast<const uint8_t*>(from[k]) + offset;
+              }).of),
         first(offset) {}
   DETENT_LANES_INLINE uint32_t index(uint32_t offset) const { return (offset - first) / 4; }
-  DETENT_LANES_INLINE LaneUnits unit(uint32_t offset) const { return words.unit(index(offset)); }
-  DETENT_LANES_INLINE LaneInt32 word(uint32_t offset) const { return words.word[index(offset)]; }
-  DETENT_LANES_INLINE Vec3<LaneUnits> vector(uint32_t offset) const {
+  DETENT_LANES_INLINE LaneUnits<count> unit(uint32_t offset) const { return words.unit(index(offset)); }
+  DETENT_LANES_INLINE LaneInt32<count> word(uint32_t offset) const { return words.word[index(offset)]; }
+  DETENT_LANES_INLINE Vec3<LaneUnits<count>> vector(uint32_t offset) const {
     return {unit(offset), unit(offset + 4), unit(offset + 8)};
   }
-  DETENT_LANES_INLINE LaneScaled scaled(uint32_t offset) const { return words.scaled(index(offset)); }
-  DETENT_LANES_INLINE LaneShare share(uint32_t offset) const { return words.share(index(offset)); }
+  DETENT_LANES_INLINE LaneScaled<count> scaled(uint32_t offset) const { return words.scaled(index(offset)); }
+  DETENT_LANES_INLINE LaneShare<count> share(uint32_t offset) const { return words.share(index(offset)); }
   /// Reads Units that stand for their value times 2^exponent.
   template <unsigned used>
-  DETENT_LANES_INLINE void units(uint32_t offset, LaneUnits (&to)[used],
-                                 LaneInt32 exponent = LaneInt32{0, 0, 0, 0}) const {
+  DETENT_LANES_INLINE void units(uint32_t offset, LaneUnits<count> (&to)[used],
+                                 LaneInt32<count> exponent = LaneInt32<count>{}) const {
     DETENT_UNROLL
     for (uint32_t i = 0; i < used; ++i) to[i] = words.unit(index(offset) + i, exponent);
   }
 };
 #define DETENT_AT(member) static_cast<uint32_t>(__builtin_offsetof(ContactWork, member))
 
-DETENT_LANES_INLINE void read_rows(Contacts from, LaneContact& to) {
+template <uint32_t count>
+DETENT_LANES_INLINE void read_rows(Contacts<count> from, LaneContact<count>& to) {
   {
-    const Words<56> words(from, DETENT_AT(normal));
+    const Words<count, 56> words(from, DETENT_AT(normal));
     to.normal = words.vector(DETENT_AT(normal));
     to.tangent[0] = words.vector(DETENT_AT(tangent[0]));
     to.tangent[1] = words.vector(DETENT_AT(tangent[1]));
@@ -80,8 +53,8 @@ DETENT_LANES_INLINE void read_rows(Contacts from, LaneContact& to) {
     for (uint32_t i = 0; i < k_manifold_points_max; ++i)
       words.units(DETENT_AT(coupling) + 16 * i, to.coupling[i], words.word(DETENT_AT(coupling_exponent)));
 #if DETENT_FIXED
-    to.coupling_power = LaneWords<4>::power(24 - words.word(DETENT_AT(coupling_exponent)));
-    to.coupling_step = LaneWords<4>::power(words.word(DETENT_AT(coupling_exponent)) - 24);
+    to.coupling_power = LaneWords<count, 4>::power(24 - words.word(DETENT_AT(coupling_exponent)));
+    to.coupling_step = LaneWords<count, 4>::power(words.word(DETENT_AT(coupling_exponent)) - 24);
 #endif
     to.static_pair = words.word(DETENT_AT(static_pair)) != 0;
     words.units(DETENT_AT(x), to.x);
@@ -90,7 +63,7 @@ DETENT_LANES_INLINE void read_rows(Contacts from, LaneContact& to) {
     to.inverse_mass_a = words.share(DETENT_AT(inverse_mass_a));
     to.inverse_mass_b = words.share(DETENT_AT(inverse_mass_b));
   }
-  const Words<DETENT_FIXED ? 44 : 36> words(from, DETENT_AT(middle_a));
+  const Words<count, DETENT_FIXED ? 44 : 36> words(from, DETENT_AT(middle_a));
   to.middle_a = words.vector(DETENT_AT(middle_a));
   to.middle_b = words.vector(DETENT_AT(middle_b));
   words.units(DETENT_AT(response), to.response, words.word(DETENT_AT(response_exponent)));
@@ -102,13 +75,14 @@ DETENT_LANES_INLINE void read_rows(Contacts from, LaneContact& to) {
     to.angular_mass[i] = words.scaled(DETENT_AT(angular_mass) + i * static_cast<uint32_t>(sizeof(Scaled)));
 }
 
-DETENT_LANES_INLINE void read_inverse_inertias(const SolverBodies& bodies, LaneContact& to) {
+template <uint32_t count>
+DETENT_LANES_INLINE void read_inverse_inertias(const SolverBodies& bodies, LaneContact<count>& to) {
   for (int end = 0; end < 2; ++end) {
-    const auto of = [&](int k) {
-      return reinterpret_cast<const uint8_t*>(&bodies.work[to.body[end][k]].inverse_inertia);
-    };
-    const LaneWords<12> words({of(0), of(1), of(2), of(3)});
-    LaneInverseInertia& inverse_inertia = to.inverse_inertia[end];
+    const LaneWords<count, 12> words(EachLane<const uint8_t*, count>([&](uint32_t k) {
+                                       return reinterpret_cast<const uint8_t*>(
+                                           &bodies.work[to.body[end][k]].inverse_inertia);
+                                     }).of);
+    LaneInverseInertia<count>& inverse_inertia = to.inverse_inertia[end];
     DETENT_UNROLL
     for (uint32_t i = 0; i < 3; ++i)
       inverse_inertia.row[i] = {words.fine_unit(3 * i), words.fine_unit(3 * i + 1), words.fine_unit(3 * i + 2)};
@@ -116,18 +90,19 @@ DETENT_LANES_INLINE void read_inverse_inertias(const SolverBodies& bodies, LaneC
   }
 }
 
-/// Four bodies, one per lane. Only the bodies that take impulses are written back.
+/// Bodies, one per lane. Only the bodies that take impulses are written back.
+template <uint32_t count>
 struct Bodies {
-  BodyMotion* motion[4];
-  BodyWork* work[4];
+  BodyMotion* motion[count];
+  BodyWork* work[count];
 
-  DETENT_LANES_INLINE Bodies(const SolverBodies& bodies, const uint32_t (&slots)[4]) {
-    for (int k = 0; k < 4; ++k) {
+  DETENT_LANES_INLINE Bodies(const SolverBodies& bodies, const uint32_t (&slots)[count]) {
+    for (uint32_t k = 0; k < count; ++k) {
       motion[k] = &bodies.motions[slots[k]];
       work[k] = &bodies.work[slots[k]];
     }
   }
-  DETENT_LANES_INLINE void read(LaneBody& to, bool with_displacement) const {
+  DETENT_LANES_INLINE void read(LaneBody<count>& to, bool with_displacement) const {
     read_vector(
         motion, [](BodyMotion& m) -> Vec3<Real>& { return m.linear_velocity; }, to.linear_velocity);
     read_vector(
@@ -147,14 +122,14 @@ struct Bodies {
         work, [](BodyWork& w) -> Vec3<Real>& { return w.contact_angular_momentum; }, to.contact_angular_momentum);
 #endif
   }
-  DETENT_LANES_INLINE void write(const LaneBody& from, const uint32_t (&takes)[4]) const {
+  DETENT_LANES_INLINE void write(const LaneBody<count>& from, const uint32_t (&takes)[count]) const {
     // Receives the results for bodies that take no impulses. They must not be written back, because such a body may
     // belong to several of the contacts.
     BodyMotion no_motion;
     BodyWork no_work;
-    BodyMotion* motions[4];
-    BodyWork* works[4];
-    for (int k = 0; k < 4; ++k) {
+    BodyMotion* motions[count];
+    BodyWork* works[count];
+    for (uint32_t k = 0; k < count; ++k) {
       motions[k] = takes[k] != 0 ? motion[k] : &no_motion;
       works[k] = takes[k] != 0 ? work[k] : &no_work;
     }
@@ -169,19 +144,37 @@ struct Bodies {
   }
 };
 
-static_assert(sizeof(LaneContact) == sizeof(LaneSpace) && alignof(LaneContact) <= alignof(LaneSpace));
-DETENT_LANES_INLINE LaneContact& contact_in(LaneSpace& lanes) { return reinterpret_cast<LaneContact&>(lanes); }
+template <uint32_t count>
+DETENT_LANES_INLINE LaneContact<count>& contact_in(LaneSpace* lanes) {
+  static_assert(sizeof(LaneContact<count>) <= count / 4 * sizeof(LaneSpace) &&
+                alignof(LaneContact<count>) <= alignof(LaneSpace));
+  return *reinterpret_cast<LaneContact<count>*>(lanes);
+}
 
-/// Reads the bodies of four contacts, calls `solve` on them, and writes the bodies back.
-template <class Solve>
-DETENT_LANES_INLINE void pass(const StepSettings& settings, const SolverBodies& bodies, LaneSpace& lanes,
+/// The number of lanes, as a type.
+template <uint32_t count>
+struct LaneCount {
+  static constexpr uint32_t value = count;
+};
+
+/// Calls work(LaneCount<lanes>()) with the number of lanes for a group of `count` contacts.
+template <class Work>
+DETENT_LANES_INLINE void with_lane_count(uint32_t count, const Work& work) {
+  if constexpr (k_lanes_max == 8) {
+    if (lane_spaces(count) == 2) return work(LaneCount<8>());
+  }
+  work(LaneCount<4>());
+}
+
+/// Reads the bodies of a group of contacts, calls `solve` on them, and writes the bodies back.
+template <uint32_t count, class Solve>
+DETENT_LANES_INLINE void pass(const StepSettings& settings, const SolverBodies& bodies, LaneContact<count>& contact,
                               bool with_displacement, const Solve& solve) {
-  LaneContact& contact = contact_in(lanes);
-  const Bodies all_a(bodies, contact.body[0]), all_b(bodies, contact.body[1]);
-  LaneBody a(contact.inverse_inertia[0]), b(contact.inverse_inertia[1]);
+  const Bodies<count> all_a(bodies, contact.body[0]), all_b(bodies, contact.body[1]);
+  LaneBody<count> a(contact.inverse_inertia[0]), b(contact.inverse_inertia[1]);
   all_a.read(a, with_displacement);
   all_b.read(b, with_displacement);
-  ContactSolver<Four> solver = {settings, contact, a, b};
+  ContactSolver<LaneKind<count>> solver = {settings, contact, a, b};
   solve(solver);
   all_a.write(a, contact.takes[0]);
   all_b.write(b, contact.takes[1]);
@@ -196,63 +189,97 @@ DETENT_LANES_INLINE void each_impulse(Lane& lanes, const Visit& visit) {
   visit([](auto& contact) { return contact.angular_impulse; }, lanes.angular_impulse);
 }
 
-template <class Pick, unsigned count>
-DETENT_LANES_INLINE void read_all(Contacts from, const Pick& pick, LaneReals (&to)[count]) {
-  for (unsigned i = 0; i < count; ++i)
-    to[i] = read_real({pick(*from[0]) + i, pick(*from[1]) + i, pick(*from[2]) + i, pick(*from[3]) + i});
+/// Sets the rows of points that a contact does not have. They have no impulse, and their products change no sum, not
+/// even the sign of a zero.
+template <uint32_t count>
+DETENT_LANES_INLINE void clear_absent_points(LaneContact<count>& to) {
+  for (uint32_t lane = 0; lane < count; ++lane) {
+    for (uint32_t i = static_cast<uint32_t>(to.points[lane]); i < to.state.point_count; ++i) {
+      for (LaneUnits<count>& element : to.coupling[i]) element.v[lane] = -0.0f;
+      to.coupling[i][i].v[lane] = 1;  // a pivot
+      to.x[i].v[lane] = to.inverse_mass[i].v[lane] = 0;
+      to.y[i].v[lane] = -0.0f;
+      to.separation[i].v[lane] = 0;
+    }
+  }
+}
+
+template <uint32_t count, class Pick, unsigned size>
+DETENT_LANES_INLINE void read_all(Contacts<count> from, const Pick& pick, LaneReals<count> (&to)[size]) {
+  for (unsigned i = 0; i < size; ++i)
+    to[i] = read_real(EachLane<const Real*, count>([&](uint32_t k) { return pick(*from[k]) + i; }).of);
 }
 
 }  // namespace
 
-void put_in_lanes(const SolverBodies& bodies, Span<const ContactWork> contacts, const ContactOrder* order,
-                  LaneSpace& lanes) {
-  LaneContact& to = contact_in(lanes);
-  const ContactWork* const from[4] = {&contacts[order[0].contact], &contacts[order[1].contact],
-                                      &contacts[order[2].contact], &contacts[order[3].contact]};
-  for (int k = 0; k < 4; ++k) {
-    to.contact[k] = order[k].contact;
-    to.body[0][k] = from[k]->state.body_a;
-    to.body[1][k] = from[k]->state.body_b;
-    to.takes[0][k] = is_positive(from[k]->inverse_mass_a) ? 1 : 0;
-    to.takes[1][k] = is_positive(from[k]->inverse_mass_b) ? 1 : 0;
-  }
-  to.state.point_count = from[0]->state.point_count;
-  to.angular_rows = from[0]->angular_rows;
-  read_rows(from, to);
-  read_inverse_inertias(bodies, to);
-  each_impulse(to, [&](const auto& pick, auto& impulses) { read_all(from, pick, impulses); });
-  read_all(
-      from, [](const ContactWork& contact) { return contact.separation; }, to.separation);
-  to.push_max = read_real({&from[0]->push_max, &from[1]->push_max, &from[2]->push_max, &from[3]->push_max});
-}
-
-void renew_lanes(const SolverBodies& bodies, Span<const ContactWork> contacts, LaneSpace& lanes) {
-  LaneContact& to = contact_in(lanes);
-  read_rows({&contacts[to.contact[0]], &contacts[to.contact[1]], &contacts[to.contact[2]], &contacts[to.contact[3]]},
-            to);
-  read_inverse_inertias(bodies, to);
-}
-
-void take_from_lanes(const LaneSpace& lanes, Span<ContactWork> contacts) {
-  const LaneContact& from = reinterpret_cast<const LaneContact&>(lanes);
-  ContactWork* const to[4] = {&contacts[from.contact[0]], &contacts[from.contact[1]], &contacts[from.contact[2]],
-                              &contacts[from.contact[3]]};
-  each_impulse(from, [&](const auto& pick, const auto& impulses) {
-    for (unsigned i = 0; i < sizeof(impulses) / sizeof(impulses[0]); ++i)
-      write_real(impulses[i], {pick(*to[0]) + i, pick(*to[1]) + i, pick(*to[2]) + i, pick(*to[3]) + i});
+void put_in_lanes(const SolverBodies& bodies, Span<const ContactWork> contacts, Span<const ContactOrder> group,
+                  LaneSpace* lanes) {
+  with_lane_count(group.count, [&](auto lane) {
+    constexpr uint32_t count = lane.value;
+    LaneContact<count>& to = contact_in<count>(lanes);
+    to.used = group.count;
+    const ContactWork* from[count];
+    for (uint32_t k = 0; k < count; ++k) {
+      const bool used = k < to.used;
+      to.contact[k] = group[used ? k : to.used - 1].contact;
+      from[k] = &contacts[to.contact[k]];
+      to.body[0][k] = from[k]->state.body_a;
+      to.body[1][k] = from[k]->state.body_b;
+      to.takes[0][k] = used && is_positive(from[k]->inverse_mass_a) ? 1 : 0;
+      to.takes[1][k] = used && is_positive(from[k]->inverse_mass_b) ? 1 : 0;
+      to.points[k] = static_cast<int32_t>(from[k]->state.point_count);
+    }
+    to.state.point_count = from[count - 1]->state.point_count;
+    to.angular_rows = from[0]->angular_rows;
+    read_rows<count>(from, to);
+    read_inverse_inertias(bodies, to);
+    each_impulse(to, [&](const auto& pick, auto& impulses) { read_all<count>(from, pick, impulses); });
+    read_all<count>(
+        from, [](const ContactWork& contact) { return contact.separation; }, to.separation);
+    to.push_max = read_real(EachLane<const Real*, count>([&](uint32_t k) { return &from[k]->push_max; }).of);
+    clear_absent_points(to);
   });
 }
 
-void warm_start_lanes(const StepSettings& settings, const SolverBodies& bodies, LaneSpace& lanes) {
-  pass(settings, bodies, lanes, false, [](ContactSolver<Four>& solver) { solver.warm_start(); });
+void renew_lanes(const SolverBodies& bodies, Span<const ContactWork> contacts, LaneSpace* lanes, uint32_t lane_count) {
+  with_lane_count(lane_count, [&](auto lane) {
+    constexpr uint32_t count = lane.value;
+    LaneContact<count>& to = contact_in<count>(lanes);
+    read_rows<count>(EachLane<const ContactWork*, count>([&](uint32_t k) { return &contacts[to.contact[k]]; }).of, to);
+    read_inverse_inertias(bodies, to);
+    clear_absent_points(to);
+  });
 }
 
-void solve_normals_lanes(const StepSettings& settings, const SolverBodies& bodies, LaneSpace& lanes) {
-  pass(settings, bodies, lanes, true, [](ContactSolver<Four>& solver) { solver.solve_normals(); });
+void take_from_lanes(const LaneSpace* lanes, uint32_t lane_count, Span<ContactWork> contacts) {
+  with_lane_count(lane_count, [&](auto lane) {
+    constexpr uint32_t count = lane.value;
+    const LaneContact<count>& from = *reinterpret_cast<const LaneContact<count>*>(lanes);
+    ContactWork no_contact;  // receives the results of lanes without a contact
+    const auto to = [&](uint32_t k) -> ContactWork& { return k < from.used ? contacts[from.contact[k]] : no_contact; };
+    each_impulse(from, [&](const auto& pick, const auto& impulses) {
+      for (unsigned i = 0; i < sizeof(impulses) / sizeof(impulses[0]); ++i)
+        write_real(impulses[i], EachLane<Real*, count>([&](uint32_t k) { return pick(to(k)) + i; }).of);
+    });
+  });
 }
 
-void relax_lanes(const StepSettings& settings, const SolverBodies& bodies, LaneSpace& lanes) {
-  pass(settings, bodies, lanes, false, [](ContactSolver<Four>& solver) { solver.relax(); });
+void warm_start_lanes(const StepSettings& settings, const SolverBodies& bodies, LaneSpace* lanes, uint32_t count) {
+  with_lane_count(count, [&](auto lane) {
+    pass(settings, bodies, contact_in<lane.value>(lanes), false, [](auto& solver) { solver.warm_start(); });
+  });
+}
+
+void solve_normals_lanes(const StepSettings& settings, const SolverBodies& bodies, LaneSpace* lanes, uint32_t count) {
+  with_lane_count(count, [&](auto lane) {
+    pass(settings, bodies, contact_in<lane.value>(lanes), true, [](auto& solver) { solver.solve_normals(); });
+  });
+}
+
+void relax_lanes(const StepSettings& settings, const SolverBodies& bodies, LaneSpace* lanes, uint32_t count) {
+  with_lane_count(count, [&](auto lane) {
+    pass(settings, bodies, contact_in<lane.value>(lanes), false, [](auto& solver) { solver.relax(); });
+  });
 }
 
 }  // namespace DETENT_NAMESPACE

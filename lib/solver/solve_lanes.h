@@ -1,43 +1,55 @@
 #pragma once
 #include "solver/solve.h"
 
-/// The passes of the solver for four contacts at once, for processors with registers of 256 bits. Each lane executes
-/// the operations for one contact, so the results have the same bits (tests/unit/solver/lanes_test.cpp). The contacts
-/// are in lanes while their island is solved.
+/// The passes of the solver for up to four or eight contacts at once, for processors with registers of 256 bits. Each
+/// lane executes the operations for one contact, so the results have the same bits (tests/unit/solver/lanes_test.cpp).
+/// The contacts are in lanes while their island is solved.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 #if DETENT_QUADS
-inline constexpr bool k_built_with_lanes = true;
+/// The most contacts that are solved at once.
+#if defined(__x86_64__) && defined(DETENT_F32)
+inline constexpr uint32_t k_lanes_max = 8;
+#else
+inline constexpr uint32_t k_lanes_max = 4;
+#endif
 /// Whether this machine has these registers. On a virtual machine this call can take longer than the step of a small
 /// world.
 bool has_lanes();
 
-/// Puts four contacts, order[0] to order[3], into lanes. Range: no dynamic body belongs to two of the contacts; all
-/// have equal numbers of points and of angular rows.
-void put_in_lanes(const SolverBodies& bodies, Span<const ContactWork> contacts, const ContactOrder* order,
-                  LaneSpace& lanes);
-/// Reads the rows of the contacts, and the inverse inertias of their bodies, again. Impulses stay.
-void renew_lanes(const SolverBodies& bodies, Span<const ContactWork> contacts, LaneSpace& lanes);
-/// Writes the impulses back to the contacts.
-void take_from_lanes(const LaneSpace& lanes, Span<ContactWork> contacts);
+// A group has up to 4 contacts and one LaneSpace, or up to 8 contacts and two that follow each other (lane_spaces()).
+// `count` is the number of contacts. Range: 1 to k_lanes_max.
 
-/// The same passes as those of ContactSolver<One>, for four contacts.
-void warm_start_lanes(const StepSettings& settings, const SolverBodies& bodies, LaneSpace& lanes);
-void solve_normals_lanes(const StepSettings& settings, const SolverBodies& bodies, LaneSpace& lanes);
-void relax_lanes(const StepSettings& settings, const SolverBodies& bodies, LaneSpace& lanes);
+/// Puts the contacts of a group into lanes. Range: no dynamic body belongs to two of the contacts; all have equal
+/// numbers of angular rows; their numbers of points do not decrease, and are all 1 or all above 1; points that a
+/// contact does not have have no impulse.
+void put_in_lanes(const SolverBodies& bodies, Span<const ContactWork> contacts, Span<const ContactOrder> group,
+                  LaneSpace* lanes);
+/// Reads the rows of the contacts, and the inverse inertias of their bodies, again. Impulses stay.
+void renew_lanes(const SolverBodies& bodies, Span<const ContactWork> contacts, LaneSpace* lanes, uint32_t count);
+/// Writes the impulses back to the contacts.
+void take_from_lanes(const LaneSpace* lanes, uint32_t count, Span<ContactWork> contacts);
+
+/// The same passes as those of ContactSolver<One>, for a group.
+void warm_start_lanes(const StepSettings& settings, const SolverBodies& bodies, LaneSpace* lanes, uint32_t count);
+void solve_normals_lanes(const StepSettings& settings, const SolverBodies& bodies, LaneSpace* lanes, uint32_t count);
+void relax_lanes(const StepSettings& settings, const SolverBodies& bodies, LaneSpace* lanes, uint32_t count);
 #else
-inline constexpr bool k_built_with_lanes = false;
+inline constexpr uint32_t k_lanes_max = 1;
 constexpr bool has_lanes() { return false; }
-inline void put_in_lanes(const SolverBodies&, Span<const ContactWork>, const ContactOrder*, LaneSpace&) {}
-inline void renew_lanes(const SolverBodies&, Span<const ContactWork>, LaneSpace&) {}
-inline void take_from_lanes(const LaneSpace&, Span<ContactWork>) {}
-inline void warm_start_lanes(const StepSettings&, const SolverBodies&, LaneSpace&) {}
-inline void solve_normals_lanes(const StepSettings&, const SolverBodies&, LaneSpace&) {}
-inline void relax_lanes(const StepSettings&, const SolverBodies&, LaneSpace&) {}
+inline void put_in_lanes(const SolverBodies&, Span<const ContactWork>, Span<const ContactOrder>, LaneSpace*) {}
+inline void renew_lanes(const SolverBodies&, Span<const ContactWork>, LaneSpace*, uint32_t) {}
+inline void take_from_lanes(const LaneSpace*, uint32_t, Span<ContactWork>) {}
+inline void warm_start_lanes(const StepSettings&, const SolverBodies&, LaneSpace*, uint32_t) {}
+inline void solve_normals_lanes(const StepSettings&, const SolverBodies&, LaneSpace*, uint32_t) {}
+inline void relax_lanes(const StepSettings&, const SolverBodies&, LaneSpace*, uint32_t) {}
 #endif
 
-inline bool uses_lanes(const StepSettings& settings) { return k_built_with_lanes && settings.lanes; }
+/// The number of LaneSpaces of a group.
+constexpr uint32_t lane_spaces(uint32_t count) { return count > 4 ? 2 : 1; }
+
+inline bool uses_lanes(const StepSettings& settings) { return k_lanes_max > 1 && settings.lanes > 1; }
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -24,9 +24,10 @@ Scaled square_of(uint32_t n) {
   return multiply(scaled, scaled);
 }
 
-/// The squared number of substeps that the contact needs.
+/// The squared number of substeps that the contact needs. The sag takes at most k_jointed_sag_substeps if the island
+/// has joints.
 Scaled needed(const StepSettings& settings, const ContactWork& contact, const BodyProperties& a,
-              const BodyProperties& b, uint32_t run) {
+              const BodyProperties& b, uint32_t run, bool jointed) {
   Scaled contact_frequency = 0.0;
   for (uint32_t i = 0; i < contact.state.point_count; ++i)
     contact_frequency = add(contact_frequency, scaled_from(contact.inverse_mass[i]));
@@ -35,7 +36,11 @@ Scaled needed(const StepSettings& settings, const ContactWork& contact, const Bo
   const Scaled extent = scaled_from(min(shape_extent(a), shape_extent(b)));
   const Scaled load = scaled_from(contact.state.load);
   const Scaled rate = multiply(divide(load, multiply(contact_frequency, extent)), settings.substeps_per_rate);
-  const Scaled sag = divide(rate, settings.resting_penetration);
+  Scaled sag = divide(rate, settings.resting_penetration);
+  if (jointed) {
+    const Scaled sag_max = square_of(k_jointed_sag_substeps);
+    if (less(sag_max, sag)) sag = sag_max;
+  }
   if (run < k_run_min) return sag;
   const Scaled buckling = multiply(rate, square_of(run));
   return less(sag, buckling) ? buckling : sag;
@@ -55,7 +60,8 @@ DETENT_SHARED uint32_t notch_for(Scaled need, uint32_t least, uint32_t most) {
 uint32_t most_for(const StepSettings& settings, const Island& island, const SubstepLimit& limit) {
   const uint32_t rows = island.contact_count + k_joint_contacts * island.joint_count;
   const uint32_t share = rows == 0 ? limit.contact_substeps : limit.contact_substeps / rows;
-  const uint32_t most = share < limit.always ? limit.always : share;
+  const uint32_t always = island.joint_count != 0 ? k_jointed_sag_substeps : limit.always;
+  const uint32_t most = share < always ? always : share;
   return most < settings.substeps_max ? most : settings.substeps_max;
 }
 
@@ -142,7 +148,7 @@ void choose_substeps(const StepSettings& settings, Span<const BodyProperties> pr
       const ContactWork& contact = contacts[order[island.first_contact + i].contact];
       const uint32_t a = contact.state.body_a, b = contact.state.body_b;
       const uint32_t run = work[is_dynamic(properties[a]) ? a : b].run_length;
-      const Scaled wanted = needed(settings, contact, properties[a], properties[b], run);
+      const Scaled wanted = needed(settings, contact, properties[a], properties[b], run, jointed);
       Scaled& most = need[contact.state.point_count < k_edge_points ? 1 : 0];
       if (less(most, wanted)) most = wanted;
     }

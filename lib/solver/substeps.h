@@ -9,7 +9,8 @@
 /// A soft contact of angular frequency w, rad/s, under a force W sinks by W / (k w^2), where k is the sum of the
 /// effective masses of its points. A column of n such contacts buckles unless k w^2 > W n^2 / (width of the column). w
 /// is a fixed fraction of the substep rate. Therefore both the permitted sag (WorldDef::resting_penetration) and the
-/// column require a number of substeps.
+/// column require a number of substeps. In islands with joints w is a fraction of a fixed rate instead
+/// (k_jointed_stiffness), because a substep costs much there.
 /// Source: the sag of a spring; Euler, "De curvis elasticis", 1744, for a column with elastic joints.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -27,6 +28,9 @@ inline constexpr SubstepLimit k_face_limit = {k_contact_substeps, 6};
 /// The limit for rolling contacts, which can only sink.
 inline constexpr SubstepLimit k_rolling_limit = {k_rolling_substeps, 4};
 inline constexpr uint32_t k_edge_points = 2;
+/// The largest number of substeps that an island with joints takes for the sag of its contacts, which are stiff already
+/// (k_jointed_stiffness). This number is always permitted there.
+inline constexpr uint32_t k_jointed_sag_substeps = 6;
 inline constexpr uint32_t k_joint_contacts = 8;
 /// The number of ticks in a row in which fewer substeps must be enough, before the number of substeps is reduced.
 inline constexpr uint32_t k_calm_ticks = 60;

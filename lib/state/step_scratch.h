@@ -27,6 +27,7 @@ struct Scratch {
   Span<ImpactPath> impact_paths;
   Span<ManifoldState> manifolds;
   Span<JointWork> joints;
+  Span<JointLanes> joint_lanes;
   Span<JointBody> joint_bodies;
   Span<uint32_t> joint_order;
   Span<JointCoupling> joint_couplings;
@@ -58,10 +59,12 @@ inline Scratch scratch_of(uint8_t* block, const Layout& layout, Capacity capacit
           {at_offset<ImpactPath>(block, layout.impact_paths), capacity.bodies},
           {at_offset<ManifoldState>(block, layout.manifold_work), manifold_count(capacity)},
           {at_offset<JointWork>(block, layout.joint_work), capacity.joints},
+          k_may_have_joint_lanes ? Span<JointLanes>{at_offset<JointLanes>(block, layout.joint_lanes), capacity.joints}
+                                 : Span<JointLanes>{},
           {at_offset<JointBody>(block, layout.joint_bodies), joint_body_count(capacity)},
           {at_offset<uint32_t>(block, layout.joint_order), capacity.joints},
           {at_offset<JointCoupling>(block, layout.joint_couplings), joint_coupling_count(capacity)},
-          {at_offset<Real>(block, layout.joint_numbers), joint_number_count(capacity)},
+          {at_offset<Real>(block, layout.joint_numbers), joint_number_room<k_may_have_joint_lanes>(capacity)},
           {at_offset<uint64_t>(block, layout.disabled_pairs), capacity.joints},
           {at_offset<uint64_t>(block, layout.sensed_work), capacity.sensed},
           {at_offset<uint64_t>(block, layout.sensed_passed), capacity.sensed},

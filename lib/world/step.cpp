@@ -60,11 +60,11 @@ void report_impacts(const ImpactReport& impacts, StepReport& report) {
   report.saturations += impacts.clamped;
 }
 
-/// The settings of a step. Four contacts are solved at once (in lanes) if create_world() has found that the processor
-/// supports this.
+/// The settings of a step. Several contacts are solved at once (in lanes) if create_world() has found that the
+/// processor supports this.
 StepSettings settings_of(const World& world, const WorldState& state) {
   StepSettings settings = step_settings(state);
-  settings.lanes = k_built_with_lanes && world.lanes == 4;
+  settings.lanes = world.lanes < k_lanes_max ? world.lanes : k_lanes_max;
   return settings;
 }
 
@@ -157,6 +157,7 @@ Step::Step(World& world, StepProbe* probe, StepReport& report)
               bodies_.poses,
               bodies_.activities,
               scratch_.joints,
+              scratch_.joint_lanes,
               scratch_.joint_bodies,
               scratch_.joint_order,
               scratch_.joint_couplings,
@@ -308,11 +309,12 @@ bool Step::is_solved_by_one_thread(const Island& island, uint32_t large) const {
 void Step::solve_island(const Island& island, StepSettings& settings) {
   const Span<const uint32_t> slots = {scratch_.island_bodies.data + island.first_body, island.body_count};
   const Span<ContactOrder> order = {scratch_.contact_order.data + island.first_contact, island.contact_count};
-  if (island.substeps != settings.substeps) set_substeps(island.substeps, settings);
+  const bool jointed = island.joint_count != 0;
+  if (island.substeps != settings.substeps || jointed != settings.jointed)
+    set_substeps(island.substeps, jointed, settings);
   share(settings.team, slots, k_bodies_shared, [&](Span<const uint32_t> part) {
     predict(settings, bodies_.properties, part, solver_bodies_.motions, bodies_.work);
   });
-  const bool jointed = island.joint_count != 0;
   if (order.count == 0 && !jointed) {
     Team::add(report_.saturations, integrate_free(settings, solver_bodies_, slots));
     return;

@@ -18,7 +18,8 @@ struct Layout {
   uint32_t cache, tree_nodes, tree_parents, active, candidates, moving_bodies, awake_contacts;
   uint32_t bounds, bounds_keys, bounds_sort, pairs, pair_sort, contact_work, islands, island_bodies, sweeps;
   uint32_t body_work, contact_order, contact_sort, lane_contacts, impact_pairs, impact_hits, impact_paths;
-  uint32_t manifold_work, joint_work, joint_bodies, joint_order, joint_couplings, joint_numbers, disabled_pairs;
+  uint32_t manifold_work, joint_work, joint_lanes, joint_bodies, joint_order, joint_couplings, joint_numbers;
+  uint32_t disabled_pairs;
   uint32_t sensed_work, sensed_passed, changed;
   uint32_t bytes;
 };
@@ -45,6 +46,14 @@ constexpr uint32_t joint_number_count(Capacity capacity) {
   constexpr uint32_t k_each = 256, k_block = 36;
   const uint32_t all = joint_coupling_count(capacity) * k_block, most = capacity.joints * k_each;
   return all < most ? all : most;
+}
+
+/// Memory for joint_number_count() numbers. With lanes, the rows of a block are rounded up to 4 or 8 numbers: with at
+/// most 16 couplings and 256 numbers for each joint, that makes at most 544. 9/4 is the next round factor.
+template <bool has_lanes>
+constexpr uint32_t joint_number_room(Capacity capacity) {
+  const uint32_t count = joint_number_count(capacity);
+  return has_lanes && k_may_have_joint_lanes ? count / 4 * 9 : count;
 }
 
 /// Largest number of groups of four of these contacts that are solved at once.
@@ -117,10 +126,11 @@ DETENT_SHARED constexpr Layout layout_of(Capacity capacity, bool& fits) {
   end = end > substeps_end ? end : substeps_end;
   layout.manifold_work = place(sizeof(ManifoldState), manifold_count(capacity));
   layout.joint_work = place(sizeof(JointWork), capacity.joints);
+  layout.joint_lanes = has_lanes && k_may_have_joint_lanes ? place(sizeof(JointLanes), capacity.joints) : 0;
   layout.joint_bodies = place(sizeof(JointBody), joint_body_count(capacity));
   layout.joint_order = place(sizeof(uint32_t), capacity.joints);
   layout.joint_couplings = place(sizeof(JointCoupling), joint_coupling_count(capacity));
-  layout.joint_numbers = place(sizeof(Real), joint_number_count(capacity));
+  layout.joint_numbers = place(sizeof(Real), joint_number_room<has_lanes>(capacity));
   layout.disabled_pairs = place(sizeof(uint64_t), capacity.joints);
   layout.sensed_work = place(sizeof(uint64_t), capacity.sensed);
   layout.sensed_passed = place(sizeof(uint64_t), capacity.sensed);

@@ -99,8 +99,8 @@ struct alignas(8) BodyWork {
 };
 
 /// A contact during the step. Impulses and masses are relative to the reference mass: the mass of the lighter dynamic
-/// body. The pair's unit of length is that of its smaller moving body. The vector solver processes four contacts at
-/// once; from each it reads groups of four words or four Reals. The members for normal impulses come before those for
+/// body. The pair's unit of length is that of its smaller moving body. The vector solver processes several contacts
+/// at once; from each it reads groups of four words or four Reals. The members for normal impulses come before those for
 /// friction (lib/solver/lane_contact.h).
 struct alignas(8) ContactWork {
   ContactState state;  ///< becomes the world's contact when the step ends
@@ -148,24 +148,31 @@ struct alignas(8) ContactWork {
   Real approach[k_manifold_points_max];
 };
 
-/// Whether builds for this machine may solve four contacts at once (lib/solver/lanes.h).
+/// Whether builds for this machine may solve several contacts at once (lib/solver/lanes.h).
 #if (defined(__x86_64__) && !defined(DETENT_F64)) || \
     ((defined(__aarch64__) || defined(__wasm_simd128__)) && defined(DETENT_F32))
 inline constexpr bool k_may_have_lanes = true;
 #else
 inline constexpr bool k_may_have_lanes = false;
 #endif
-/// Work space for four contacts that are solved at once (LaneContact in lib/solver/lane_contact.h).
+/// Whether builds for this machine may solve the rows of a joint side by side (lib/joint/joint_lanes.h).
+#if defined(DETENT_F32)
+inline constexpr bool k_may_have_joint_lanes = k_may_have_lanes;
+#else
+inline constexpr bool k_may_have_joint_lanes = false;
+#endif
+/// Work space for up to four contacts that are solved at once (LaneContact in lib/solver/lane_contact.h). Up to eight
+/// take two.
 struct alignas(8) LaneSpace {
-  uint8_t bytes[DETENT_FIXED ? 2448 : 2096];
+  uint8_t bytes[DETENT_FIXED ? 2472 : 2120];
 };
 
 /// The position of a contact in the solve order.
 struct ContactOrder {
-  uint32_t key;  ///< hash of the pair's ids
+  uint32_t key;  ///< hash of the pair's ids; of the first contact of a group, while it is solved: the index of its lanes
   uint32_t contact;
   uint16_t colour;
-  uint16_t kind;  ///< kind of work, and the place in a group of four (contact_order.h)
+  uint16_t kind;  ///< kind of work, and group_size() (contact_order.h)
   uint32_t island;
 };
 
@@ -185,7 +192,7 @@ struct alignas(8) JointBodyStart {
   uint32_t slot;
   uint32_t mobile;                     ///< 1 if it is dynamic and awake
   uint32_t first, last;                ///< ends of the list of its joints, as 2 x joint + end; UINT32_MAX: empty
-  uint32_t owner;                      ///< its first joint in the elimination order, as 2 x joint + end
+  uint32_t next;                       ///< next mobile body of its assembly; of the last one: its own index
   int32_t exponent;                    ///< the body's unit for joints is 2^exponent m
   int32_t above;                       ///< `exponent` minus the body's size_exponent
   uint32_t renewed;                    ///< 1 if its inverse inertia differs from that of the last substep
@@ -204,12 +211,14 @@ struct alignas(8) JointBody : JointBodyStart {
   Matrix3 axes;               ///< current
   Vec3<Real> place;           ///< displacement of its centre since the start of the tick, m
   Vec3<Real> linear_velocity, angular_velocity;  ///< from these the rows' speeds are computed, m/s
-  Real pushed;                ///< velocity per unit impulse
-  Vec3<Real> turned[3];       ///< angular velocity per unit angular impulse: rows of a symmetric matrix
+  Vec3<Real> turned[3];  ///< angular velocity per unit angular impulse: rows of a symmetric matrix
+  // A register of four floats may read and write `push` together with `pushed`, and `twist` with a kept_rotation.
+  Vec3<Real> push;  ///< velocity that the rows' impulses add, m/s
+  Real pushed;      ///< velocity per unit impulse
+  Vec3<Real> twist;  ///< angular momentum that the rows' impulses add, m/s
   /// About each body axis: the body's own inertia over its inertia in this substep, which joints may increase
   /// (joint_inertia.cpp). At equal angular velocity, it is also the ratio of the angular momenta.
   alignas(sizeof(Real)) Scaled kept_rotation[3];
-  Vec3<Real> push, twist;              ///< velocity, angular momentum that the rows' impulses add, m/s
   Vec3<Real> given_push, given_twist;  ///< the same by impulses without a row: motors at full force, soft springs
   Vec3<Real> shift;                    ///< translation of its centre in this substep that closes gaps, m
   Vec3<Real> shift_rotation;               ///< rotation vector in this substep that closes gaps, rad
@@ -252,7 +261,9 @@ struct alignas(8) JointWorkStart {
   uint32_t place;                   ///< position in the elimination order; UINT32_MAX: not eliminated yet
   uint32_t coupling;                ///< first coupling with a joint eliminated later; UINT32_MAX: none
   uint32_t degree;                  ///< while the order is computed: couplings with joints not eliminated yet
-  uint32_t mark;                    ///< while the order is computed: the last joint that marked this one as a neighbour
+  /// Of the first joint of an assembly in the elimination order: the first of its mobile bodies. While the order is
+  /// computed: the last joint that marked this one as a neighbour.
+  uint32_t mark;
   uint32_t around[2];               ///< while the order is computed: previous and next joint of the same degree
   uint32_t assembly_joints;         ///< of the first joint of an assembly in the elimination order: number of its joints
   uint32_t rows;                    ///< number of rows in this substep
@@ -286,6 +297,15 @@ struct alignas(8) JointWork : JointWorkStart, JointRows {
   int32_t row_power[k_joint_rows_max];  ///< exponent of the unit of each row
 };
 
+/// The rows of a joint side by side (lib/joint/joint_lanes.h): rows and columns of its Jacobian J for each body, without
+/// the sign of A, and the upper half of the matrix JointWork::response. A column has the numbers of all rows for one
+/// component of (v, w). In a row, a zero follows v, and another one follows w.
+struct alignas(8) JointLanes {
+  Real column[2][6][8];
+  Real row[2][k_joint_rows_max][8];
+  Real upper[k_joint_rows_max][8];
+};
+
 /// A coupling of two joints: a block of the factor. The joints share a body, or the elimination of the joints between
 /// them couples them.
 struct JointCoupling {
@@ -293,7 +313,9 @@ struct JointCoupling {
   /// Next coupling of the first joint with a joint eliminated later. While the order is computed: next coupling of each
   /// of the two joints, as 2 x coupling + end.
   uint32_t next[2];
-  uint32_t block;  ///< index of the block's first number; size: rows of the first joint x rows of the other
+  /// Index of the block's first number; size: rows of the first joint x rows of the other, with lanes rounded up to
+  /// 4 or 8.
+  uint32_t block;
 };
 
 /// The motion of a body for the rest of the tick, from its pose at `from`: constant velocity and constant angular

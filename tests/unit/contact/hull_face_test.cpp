@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "contact/contact_points.h"
 #include "ports/host/cook/cook.h"
 #include "tests/unit/contact/pairs.h"
 
@@ -163,6 +164,183 @@ DETENT_TEST(hull_face, between_chamfers_is_the_face_alone) {
     EXPECT_NEAR(fabs(at[0]), 0.495, 1e-3);
     EXPECT_NEAR(fabs(at[2]), 0.495, 1e-3);
     EXPECT_NEAR(real_to_host(manifold.point[i].separation), -0.001, 1e-5);
+  }
+}
+
+/// 4 to 40 points about a centre, unevenly spread. In half of the cases the centre is the frame's origin.
+Points random_points(Samples& samples) {
+  const int count = 4 + static_cast<int>(uniform(samples, 0, 36));
+  const double aside = uniform(samples, -1, 1) < 0 ? 0 : 0.3;
+  const Vector centre = {
+      {uniform(samples, -aside, aside), uniform(samples, -aside, aside), uniform(samples, -aside, aside)}};
+  Points points;
+  for (int i = 0; i < count; ++i) {
+    const double z = i < 4 ? 0.5 * i - 0.75 : uniform(samples, -1, 1);
+    const double across = sqrt(1 - z * z), angle = i < 4 ? 2.4 * i : uniform(samples, 0, 5),
+                 out = uniform(samples, 0.9, 1);
+    points.push_back(
+        {centre[0] + out * across * cos(angle), centre[1] + out * across * sin(angle), centre[2] + out * z});
+  }
+  return points;
+}
+
+Placed placed_alone(const Convex& convex) {
+  return place(convex, matrix_from(Quat32{0, 0, 0, k_one}), convex.exponent);
+}
+
+Vec32 normal_of(const HullView& hull, uint32_t face) {
+  const HullPlane plane = hull.plane(face);
+  return {plane.normal[0], plane.normal[1], plane.normal[2]};
+}
+
+DETENT_TEST(hull_face, that_is_nearest_to_the_middle_gives_the_half_thickness) {
+  Samples samples = {6};
+  int from_origin_count = 0;
+  for (int round = 0; round < 200; ++round) {
+    const HullShape shape(random_points(samples));
+    const HullView hull = hull_view(shape.convex.hull);
+    int64_t sum[3] = {};
+    for (uint32_t v = 0; v < hull.vertex_count; ++v) {
+      sum[0] += hull.x(v);
+      sum[1] += hull.y(v);
+      sum[2] += hull.z(v);
+    }
+    const auto mean = [&](int axis) { return static_cast<int32_t>(sum[axis] / static_cast<int>(hull.vertex_count)); };
+    int64_t from_origin = INT32_MAX, from_mean = INT32_MAX;
+    for (uint32_t f = 0; f < hull.face_count; ++f) {
+      const int64_t offset = hull.plane(f).offset;
+      from_origin = std::min(from_origin, offset);
+      from_mean = std::min(from_mean, offset - (dot(normal_of(hull, f), Vec32{mean(0), mean(1), mean(2)}) >> 30));
+    }
+    EXPECT_EQ(core_half_thickness(placed_alone(shape.convex)), std::max(from_origin, from_mean)) << round;
+    from_origin_count += from_origin > from_mean;
+  }
+  EXPECT_GT(from_origin_count, 20);
+  EXPECT_LT(from_origin_count, 180);
+}
+
+DETENT_TEST(hull_face, has_the_index_of_each_of_its_edges) {
+  Samples samples = {7};
+  for (int round = 0; round < 50; ++round) {
+    const HullShape shape(random_points(samples));
+    const Placed placed = placed_alone(shape.convex);
+    uint32_t found = 0;
+    for (uint32_t a = 0; a < placed.hull.vertex_count; ++a) {
+      for (uint32_t b = 0; b < placed.hull.vertex_count; ++b) {
+        const uint32_t index = edge_index(placed, a, b);
+        if (a == b || index >= 768) continue;
+        ++found;
+        ASSERT_LT(index, placed.hull.edge_count);
+        EXPECT_EQ(placed.hull.edge(index).a, std::min(a, b));
+        EXPECT_EQ(placed.hull.edge(index).b, std::max(a, b));
+      }
+    }
+    EXPECT_EQ(found, 2 * placed.hull.edge_count) << round;
+  }
+}
+
+/// Compares with a search through all vertices and all faces.
+DETENT_TEST(hull_face, has_the_most_of_the_vertices_that_are_level) {
+  Samples samples = {8};
+  int several = 0;
+  for (int round = 0; round < 2000; ++round) {
+    const HullShape shape(random_points(samples));
+    const Placed placed = placed_alone(shape.convex);
+    const HullView& hull = placed.hull;
+    const Vec32 about = normal_of(hull, static_cast<uint32_t>(uniform(samples, 0, hull.face_count)));
+    const double off = ldexp(1, static_cast<int>(uniform(samples, 10, 30)));
+    const auto near = [&](int32_t component) { return component + static_cast<int64_t>(uniform(samples, -off, off)); };
+    const Vec32 d = unit_vector_raw(scaled_to_30_bits(Vec64{near(about.x), near(about.y), near(about.z)}));
+    const int32_t thickness = 1 << static_cast<int>(uniform(samples, 24, 31));
+    int64_t top = INT64_MIN;
+    for (uint32_t v = 0; v < hull.vertex_count; ++v) top = std::max(top, dot(hull.vertex(v), d));
+    const auto is_level = [&](uint32_t v) { return dot(hull.vertex(v), d) >= top - (thickness >> 6) * k_one_64; };
+    uint32_t best = 0, most = 0;
+    for (uint32_t f = 0; f < hull.face_count; ++f) {
+      uint32_t level = 0;
+      for (uint32_t i = 0; i < hull.face(f).count; ++i) level += is_level(hull.face(f).index[i]) ? 1u : 0u;
+      if (level < most || level == 0) continue;
+      if (level == most && dot(normal_of(hull, f), d) <= dot(normal_of(hull, best), d)) continue;
+      best = f;
+      most = level;
+    }
+    several += most > 1;
+    Feature face;
+    ASSERT_TRUE(supporting_face(placed, d, thickness, face));
+    const bool is_region = face.index == hull.face_count;
+    EXPECT_TRUE(is_region || face.index == best) << round;
+  }
+  EXPECT_GT(several, 200);
+}
+
+/// Also where the thickness of one of them is given, as for a part of a compound.
+DETENT_TEST(hull_face, of_two_bodies_of_one_hull_is_that_of_two_equal_hulls) {
+  Samples samples = {9};
+  for (int round = 0; round < 300; ++round) {
+    const HullShape shape(random_points(samples)), other(shape);
+    Convex thick = shape.convex, copy = shape.convex;
+    if (round % 2 == 0) thick.size[0] = 1 << static_cast<int>(uniform(samples, 20, 31));
+    copy.hull = other.bytes.data();
+    copy.size[0] = thick.size[0];
+    const Pose pose_a = pose_of({{0, 0, 0}}, k_upright);
+    const Pose pose_b = pose_of(
+        {{0, uniform(samples, 1.6, 2), 0}},
+        detent_oracle::rotation_by({{uniform(samples, -3, 3), uniform(samples, -3, 3), uniform(samples, -3, 3)}}));
+    const ContactManifold found = contact_between(shape.convex, pose_a, thick, pose_b);
+    const ContactManifold expected = contact_between(shape.convex, pose_a, copy, pose_b);
+    ASSERT_EQ(found.count, expected.count) << round;
+    EXPECT_EQ(found.normal, expected.normal) << round;
+    for (uint32_t i = 0; i < found.count; ++i) {
+      EXPECT_EQ(found.point[i].from_a, expected.point[i].from_a) << round;
+      EXPECT_EQ(found.point[i].from_b, expected.point[i].from_b) << round;
+      EXPECT_EQ(found.point[i].feature, expected.point[i].feature) << round;
+    }
+  }
+}
+
+DETENT_TEST(hull_face, of_no_contact_of_edges_that_cross_is_named) {
+  Samples samples = {10};
+  int compared = 0;
+  for (int round = 0; round < 1000; ++round) {
+    const HullShape a(random_points(samples)), b(random_points(samples));
+    const Pose pose_b =
+        pose_of({{0, uniform(samples, 1.6, 2), 0}}, detent_oracle::rotation_by({{uniform(samples, -3, 3), 0, 1}}));
+    RestingPair pair;
+    ASSERT_EQ(rest(a.convex, pose_of({{0, 0, 0}}, k_upright), b.convex, pose_b, pair), Status::ok);
+    BlockManifold found;
+    find_contact_points(pair, rules_of(int64_t{1} << 39, ManifoldReduction::projected_extremes), nullptr, found);
+    if (found.count != 1 || found.turns || found.leans) continue;
+    const auto lies_on_face = [](const Placed& placed, const Vec32& outward) {
+      Feature face;
+      return !supporting_face(placed, outward, core_half_thickness(placed), face) ||
+             dot(face.normal, outward) > k_one_64 * k_one_64 - (int64_t{1} << 35);
+    };
+    const Vec32 back = negate(found.normal);
+    Feature edge_a, edge_b;
+    supporting_edge(pair.a, found.normal, k_one >> 5, edge_a);
+    supporting_edge(pair.b, back, k_one >> 5, edge_b);
+    if (lies_on_face(pair.a, found.normal) || lies_on_face(pair.b, back)) continue;
+    if (edge_a.count != 2 || edge_b.count != 2) continue;
+    EXPECT_EQ(found.point[0].feature, feature_pair(edge_a.name(), edge_b.name())) << round;
+    ++compared;
+  }
+  EXPECT_GT(compared, 20);
+}
+
+/// The lowest point of the rim lies between the corners that stand for it, and is added.
+DETENT_TEST(hull_face, under_a_cylinder_that_leans_is_named_by_all_points) {
+  const HullShape cube(box_points({{-1, -1, -1}}, {{1, 1, 1}}));
+  Convex cylinder_convex;
+  EXPECT_OK(make_convex(cylinder(real_near(0.5), real_near(0.25)), cylinder_convex));
+  const double about = M_PI / 8;
+  const Quaternion rotation = detent_oracle::rotation_by({{0.03 * sin(about), 0, -0.03 * cos(about)}});
+  const ContactManifold manifold = contact_between(cube.convex, pose_of({{0, 0, 0}}, k_upright), cylinder_convex,
+                                                   pose_of({{0, 1.264, 0}}, rotation));
+  ASSERT_GT(manifold.count, 1u);
+  for (uint32_t i = 0; i < manifold.count; ++i) {
+    const uint32_t name = manifold.point[i].feature & 0xfff;
+    EXPECT_EQ(name, manifold.point[0].feature & 0xfff) << i;
+    EXPECT_EQ(name >> 10, static_cast<uint32_t>(FeatureType::face)) << i;
   }
 }
 

@@ -1,6 +1,7 @@
 #include <detent/body.h>
 #include <detent/world.h>
 
+#include <math.h>
 #include <string.h>
 
 #include <vector>
@@ -20,6 +21,9 @@ DETENT_TEST(joint, what_the_work_space_holds_before_a_step_does_not_matter) {
     const Layout layout = layout_of(capacity, fits);
     memset(lab.block() + layout.joint_work, byte, sizeof(JointWork) * capacity.joints);
     memset(lab.block() + layout.joint_bodies, byte, sizeof(JointBody) * joint_body_count(capacity));
+    if (k_may_have_joint_lanes) memset(lab.block() + layout.joint_lanes, byte, sizeof(JointLanes) * capacity.joints);
+    memset(lab.block() + layout.joint_numbers, byte,
+           sizeof(Real) * joint_number_room<k_may_have_joint_lanes>(capacity));
   };
   for (const JointType type : k_joint_types) {
     SCOPED_TRACE(static_cast<int>(type));
@@ -46,6 +50,36 @@ DETENT_TEST(joint, what_the_work_space_holds_before_a_step_does_not_matter) {
       other.run(1);
       ASSERT_EQ(digest(lab.world), digest(other.world)) << "tick " << tick;
     }
+  }
+}
+
+/// With lanes the rows of a block have 4 or 8 numbers. The count of couplings and that of their numbers without this
+/// rounding are limited. The room that these limits permit is greatest for couplings of at most two shapes, because
+/// there are two limits.
+DETENT_TEST(joint, the_room_for_blocks_with_lanes_holds_whatever_the_limits_permit) {
+  struct Shape {
+    double numbers, room;
+  };
+  std::vector<Shape> shapes;
+  for (int rows = 1; rows <= 6; ++rows) {
+    for (int width = 1; width <= 6; ++width) shapes.push_back({1.0 * rows * width, rows * (width > 4 ? 8.0 : 4.0)});
+  }
+  for (const uint32_t joints : {1u, 2u, 3u, 8u, 14u, 15u, 16u, 31u, 32u, 33u, 1000u}) {
+    const Capacity capacity = room(2, joints);
+    const double couplings = joint_coupling_count(capacity), numbers = joint_number_count(capacity);
+    double most = 0;
+    for (const Shape& one : shapes) {
+      most = fmax(most, one.room * fmin(couplings, numbers / one.numbers));
+      for (const Shape& other : shapes) {  // both limits are reached
+        const double of_one = (numbers - couplings * other.numbers) / (one.numbers - other.numbers);
+        if (of_one >= 0 && of_one <= couplings)
+          most = fmax(most, of_one * one.room + (couplings - of_one) * other.room);
+      }
+    }
+    EXPECT_LE(most, 9 * numbers / 4) << joints;
+    EXPECT_EQ(joint_number_count(capacity) % 4, 0u) << joints;
+    EXPECT_EQ(joint_number_room<true>(capacity),
+              k_may_have_joint_lanes ? joint_number_count(capacity) / 4 * 9 : joint_number_count(capacity));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "solver/contact_rows.h"
 #include "solver/island.h"
 #include "solver/solve.h"
+#include "solver/solve_lanes.h"
 #include "solver/substeps.h"
 #include "state/view.h"
 #include "tests/common/oracle/bodies.h"
@@ -197,7 +198,7 @@ struct Scene {
     motions.assign(state.motions.data, state.motions.data + used);
     work.resize(used, BodyWork{});
     settings = step_settings(state.world);
-    set_substeps(4, settings);
+    set_substeps(4, false, settings);
     activities.assign(state.activities.data, state.activities.data + used);
     for (uint32_t slot = 0; slot < used; ++slot)
       start_body(settings, properties[slot], poses[slot], motions[slot], work[slot]);
@@ -211,6 +212,7 @@ struct Scene {
       ContactWork contact{};
       contact.state = before;
       contact.state.point_count = static_cast<uint8_t>(geometry.count);
+      for (uint32_t k = geometry.count; k < k_manifold_points_max; ++k) contact.state.normal_impulse[k] = k_zero;
       make_rows(settings,
                 {properties[a], poses[a], motions[a], work[a].inverse_inertia, work[a].angular_velocity, work[a].extent,
                  work[a].fall},
@@ -284,6 +286,49 @@ DETENT_TEST(order, contacts_of_one_colour_may_be_solved_in_any_order) {
   std::reverse(backward.order.begin(), backward.order.end());
   backward.run();
   EXPECT_NE(backward.result(), forward.result()) << "the order of the colours does matter, so the test can tell";
+}
+
+/// Contacts of a colour are solved in groups, as many at once as there are lanes. Each group has lanes of its own.
+DETENT_TEST(order, contacts_are_grouped_as_the_lanes_permit) {
+  if (k_lanes_max == 1 || !has_lanes()) GTEST_SKIP() << "this machine, or this build, takes one contact at a time";
+  Lab lab({80, 500, 0});
+  lab.add_ground();
+  for (int i = 0; i < 63; ++i)
+    lab.add_box(0.5, 0.9 * (i % 3) + 0.05 * (i / 9), 0.5 + 0.99 * (i / 9), 0.9 * (i / 3 % 3));
+  lab.run(5);
+  const Scene start(lab);
+  Scene one = start;
+  one.run();
+  for (uint32_t lanes = 4; lanes <= k_lanes_max; lanes *= 2) {
+    Scene grouped = start;
+    grouped.settings.lanes = lanes;
+    grouped.run();
+    EXPECT_EQ(grouped.result(), one.result()) << lanes;
+    const std::vector<ContactOrder>&before = start.order, &order = grouped.order;
+    uint32_t full = 0, partial = 0, alone = 0, spaces = 0;
+    for (size_t i = 0; i < order.size();) {
+      const uint32_t size = group_size(order[i]);
+      if (size == 0) {
+        ++alone, ++i;
+        continue;
+      }
+      ASSERT_TRUE(size >= 2 && size <= lanes && i + size <= order.size()) << i;
+      EXPECT_EQ(order[i].key, spaces) << i;
+      spaces += lane_spaces(size);
+      for (size_t k = i + 1; k < i + size; ++k) {
+        EXPECT_EQ(group_size(order[k]), k_in_group) << k;
+        EXPECT_EQ(before[k].colour, before[i].colour) << k;
+        EXPECT_EQ(before[k].kind >> k_rows_shift, before[i].kind >> k_rows_shift) << k;
+        EXPECT_EQ((before[k].kind & k_point_mask) == 1, (before[i].kind & k_point_mask) == 1) << k;
+      }
+      ++(size == lanes ? full : partial);
+      i += size;
+    }
+    EXPECT_LE(spaces, order.size() / 4);
+    EXPECT_GT(full, 5u) << lanes;
+    EXPECT_GT(partial, 0u) << lanes;
+    EXPECT_GT(alone, 0u) << lanes;
+  }
 }
 
 /// One island of boxes, as choose_substeps() sees it.
@@ -436,6 +481,46 @@ DETENT_TEST(substeps, follow_the_penetration_that_is_permitted_at_rest) {
     };
     EXPECT_EQ(pile.choose(load), least(needed)) << permitted;
     EXPECT_EQ(row.choose(load), least(fmax(needed, buckles))) << permitted;
+  }
+}
+
+DETENT_TEST(substeps, of_an_island_with_joints_are_at_most_six_for_the_sag_but_prevent_buckling) {
+  for (const double number : {3.9, 5.9, 7.9, 31.0}) {
+    Pile sinks(1, 1), buckles(1, 24);
+    for (Pile* pile : {&sinks, &buckles}) {
+      pile->settings.substeps_max = 64;
+      pile->island.joint_count = 1;
+    }
+    const double load = sinks.load_for(number);
+    EXPECT_EQ(sinks.choose(load), number < 4 ? 4u : 6u) << number;
+    EXPECT_EQ(buckles.choose(load), number < 4 ? 8u : number < 6 ? 12u : number < 8 ? 16u : 64u) << number;
+  }
+  Pile large(20480, 1);
+  large.island.joint_count = 1;
+  EXPECT_EQ(large.choose(large.load_for(31)), 6u) << "six are permitted for any number of contacts";
+  for (ContactWork& contact : large.contacts) contact.state.point_count = 1;
+  EXPECT_EQ(large.choose(large.load_for(31)), 6u);
+}
+
+DETENT_TEST(substeps, contacts_with_joints_are_as_stiff_as_with_24) {
+  Pile pile(1, 1);
+  StepSettings& settings = pile.settings;
+  const auto phase_of = [](double frequency, uint32_t substeps) {
+    return 2 * 3.14159265358979 * frequency * (substeps < 24 ? 24.0 / substeps : 1);
+  };
+  for (const uint32_t substeps : {1u, 2u, 4u, 6u, 12u, 23u, 24u, 64u}) {
+    for (const bool jointed : {true, false}) {
+      set_substeps(substeps, jointed, settings);
+      const struct {
+        const Softness& softness;
+        double frequency, damping_ratio;
+      } kinds[] = {{settings.dynamic_softness, 0.14, 7}, {settings.static_softness, 0.28, 5}};
+      for (const auto& kind : kinds) {
+        const double phase = phase_of(kind.frequency, jointed ? substeps : 24), sum = 2 * kind.damping_ratio + phase;
+        EXPECT_NEAR(unit_to_host(kind.softness.rate), phase / sum, 1e-6) << substeps;
+        EXPECT_NEAR(8 * unit_to_host(kind.softness.spring_eighth), 1 / (phase * sum), 1e-6) << substeps;
+      }
+    }
   }
 }
 
