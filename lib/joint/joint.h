@@ -42,7 +42,8 @@ inline namespace DETENT_NAMESPACE {
 #endif
 
 inline constexpr uint32_t k_no_link = UINT32_MAX;
-inline constexpr Real k_joint_impulse_max = 16384.0;  ///< limit of a stored row impulse, m/s
+/// Limit of the stored impulse of a row, of the impulse of a drive in a substep, and of JointWork::pull, m/s.
+inline constexpr Real k_joint_impulse_max = 16384.0;
 /// The impulses that a joint stores are scaled from a substep to 2^-k_kept_power of a tick. So they do not depend on
 /// the number of substeps.
 inline constexpr int k_kept_power = 3;
@@ -175,6 +176,8 @@ inline bool is_linear(const JointRow& row) { return !(row.axis == k_no_direction
 /// 0: linear row; 1: angular row.
 inline int row_kind(const JointRow& row) { return is_linear(row) ? 0 : 1; }
 inline int row_kind(const JointRows& rows, uint32_t k) { return k < 3 && rows.points != 0 ? 0 : row_kind(rows.row[k]); }
+/// Index of the first row that is not one of the three rows of the anchor points.
+inline uint32_t first_other(const JointRows& rows) { return rows.points != 0 ? 3 : 0; }
 
 /// The unit of impulses of linear (0) or angular (1) rows is 2^impulse_power reference masses times m/s.
 inline int impulse_power([[maybe_unused]] const JointWork& work, [[maybe_unused]] int kind) {
@@ -199,8 +202,14 @@ bool is_limited(const JointState& joint, int motion);
 bool is_driven(const JointState& joint, int motion);
 /// Whether friction acts on the free motion.
 bool is_braked(const JointState& joint, int motion);
-/// The rows of a joint at the current poses of its bodies.
-JointRows make_joint_rows(const JointStage& stage, const JointWork& work);
+/// The free motions on which something can act: bit i for free motion i.
+uint32_t driven_motions(const JointState& joint);
+/// Parts of a joint's rows: all, or only `locked_rows`, `points`, `arm`, the errors, and the values of the free
+/// motions.
+enum class RowParts : uint8_t { all, errors };
+/// Makes the rows of a joint at the current poses of its bodies, without the free motions that are not in `motions`
+/// (bit i for free motion i).
+void make_joint_rows(const JointStage& stage, const JointWork& work, uint32_t motions, RowParts parts, JointRows& rows);
 /// Chooses the drive mode of each free motion, before the rows are solved and before forces and impulses act in the
 /// substep. A limit that the motion would pass in this substep is activated.
 void choose_drives(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointWork& work);
@@ -227,9 +236,15 @@ bool release_limits(const JointState& joint, bool changes, JointWork& work);
 /// Adds the rows of the driven free motions.
 void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                      JointWork& work);
-/// The size of the stored linear impulse on B in the last substep: the length of the sum of axis x impulse over the
-/// linear rows.
-Real last_pull(const JointStage& stage, const JointWork& work);
+/// The linear impulse on B in the current substep, in the unit of the joint's linear rows.
+Vec3<Real> linear_impulse(const JointWork& work);
+/// The magnitude of linear_impulse() / mass of the lighter body, m/s. Overflow: k_joint_impulse_max.
+Real pull_of(const JointWork& work);
+/// The same for the last substep of the last tick, from the stored impulses, at the current number of substeps.
+Real last_pull(const StepSettings& settings, const JointStage& stage, const JointWork& work);
+/// Stores the impulses of the last of `substeps` substeps, for last_pull(). They are scaled down to JointWork::pull.
+/// Overflow: each is clamped to k_joint_impulse_max.
+void store_impulses(uint32_t substeps, const JointWork& work, JointState& joint);
 /// Sets a body's inertia for this substep: about each of its axes it is at least h sum |impulse| |arm| over the joints
 /// of the body, with the length h of the substep. Without this, strong forces on a light body would make it oscillate
 /// faster than a substep can follow. The angular momentum stays the same, so the body rotates more slowly. Also sets

@@ -48,7 +48,7 @@ uint32_t rows_of(const JointState& joint) {
                   : type == JointType::parallel                            ? 2
                   : type == JointType::fixed                               ? 6
                                                                            : 5;
-  for (int i = 0; i < driven_motion_count(joint); ++i) rows += is_driven(joint, i) ? 1u : 0u;
+  for (uint32_t left = driven_motions(joint); left != 0; left &= left - 1) ++rows;
   return rows;
 }
 

@@ -148,8 +148,9 @@ void choose_unit([[maybe_unused]] const JointStage& stage, JointWork& work) {
   work.power[0] = work.power[1] = 0;
 #if DETENT_FIXED
   work.rows = work.locked_rows;
-  for (int i = 0; i < k_free_motions; ++i) {
-    if (work.rows_max - work.locked_rows > static_cast<uint32_t>(i)) work.row[work.rows++] = work.free_row[i];
+  const uint32_t motions = driven_motions(stage.joints[work.joint]);
+  for (uint32_t i = 0; i < k_free_motions; ++i) {
+    if (((motions >> i) & 1) != 0) work.row[work.rows++] = work.free_row[i];
   }
   Real response[k_joint_rows_max] = {k_zero, k_zero, k_zero, k_zero, k_zero, k_zero};
   for (uint32_t end = 0; end < 2; ++end) {

@@ -13,9 +13,6 @@ inline Vec3<Real> real_from(const Vec3<Unit>& v) {
   return {real_from_unit(v.x, 0), real_from_unit(v.y, 0), real_from_unit(v.z, 0)};
 }
 
-/// Index of the first row that is not one of the three rows of the anchor points.
-inline uint32_t first_other(const JointRows& rows) { return rows.points != 0 ? 3 : 0; }
-
 /// Exponent of the unit of a row's impulses, without k_impulse_power; see choose_unit().
 inline int unit_power([[maybe_unused]] const JointWork& work, [[maybe_unused]] uint32_t row) {
   return DETENT_FIXED ? work.row_power[row] : 0;

@@ -23,22 +23,54 @@ Scaled pulls_on(const JointStage& stage, const JointBody& body) {
 
 }  // namespace
 
-Real last_pull(const JointStage& stage, const JointWork& work) {
-  const JointState& joint = stage.joints[work.joint];
-  Vec3<Real> pull = k_zero_vector;
-  if (work.points != 0) pull = {joint.impulse[0], joint.impulse[1], joint.impulse[2]};
-  for (uint32_t k = work.points != 0 ? 3 : 0; k < work.locked_rows; ++k) pull += work.row[k].axis * joint.impulse[k];
+Vec3<Real> linear_impulse(const JointWork& work) {
+  Vec3<Real> sum = k_zero_vector;
+  const auto add_row = [&](const JointRow& row, Real impulse) {
+    if (is_linear(row)) sum += row.axis * impulse;
+  };
+  if (work.points != 0) sum = {work.total[0], work.total[1], work.total[2]};
+  for (uint32_t k = first_other(work); k < work.locked_rows; ++k) add_row(work.row[k], work.total[k]);
+  for (int i = 0; i < k_free_motions; ++i) add_row(work.free_row[i], work.driven_total[i] + work.given[i]);
+  return sum;
+}
+
+Real pull_of(const JointWork& work) {
+  bool saturated = false;
+  const Scaled unit = scaled_by_power(work.over_lighter, impulse_power(work, 0));
+  return min(multiply(length(linear_impulse(work)), unit, saturated), k_joint_impulse_max);
+}
+
+Real last_pull(const StepSettings& settings, const JointStage& stage, const JointWork& work) {
+  const Real(&impulse)[k_joint_rows_max] = stage.joints[work.joint].impulse;
+  Vec3<Real> sum = k_zero_vector;
+  if (work.points != 0) sum = {impulse[0], impulse[1], impulse[2]};
+  for (uint32_t k = first_other(work); k < work.locked_rows; ++k) sum += work.row[k].axis * impulse[k];
   for (uint32_t i = 0; i < k_free_motions && work.locked_rows + i < k_joint_rows_max; ++i)
-    pull += work.free_row[i].axis * joint.impulse[work.locked_rows + i];
-  return length(pull);
+    sum += work.free_row[i].axis * impulse[work.locked_rows + i];
+  bool saturated = false;
+  return min(multiply(length(sum), scaled_by_power(settings.share, k_kept_power), saturated), k_joint_impulse_max);
+}
+
+void store_impulses(uint32_t substeps, const JointWork& work, JointState& joint) {
+  const Real now = pull_of(work);
+  Scaled share = multiply(scaled_by_power(scaled_from_count(substeps), -k_kept_power), work.over_lighter);
+  if (now > work.pull) share = multiply(share, divide(scaled_from(work.pull), scaled_from(now)));
+  const auto store = [&](uint32_t k, int kind, Real total) {
+    bool saturated = false;
+    const Real impulse = multiply(total, scaled_by_power(share, impulse_power(work, kind)), saturated);
+    joint.impulse[k] = clamp(impulse, -k_joint_impulse_max, k_joint_impulse_max);
+  };
+  for (uint32_t k = 0; k < work.locked_rows; ++k) store(k, row_kind(work, k), work.total[k]);
+  for (uint32_t i = 0; i < k_free_motions && work.locked_rows + i < k_joint_rows_max; ++i)
+    store(work.locked_rows + i, row_kind(work.free_row[i]), work.driven_total[i] + work.given[i]);
 }
 
 void load_inertia(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointBody& body) {
   const BodyProperties& properties = bodies.properties[body.slot];
   BodyWork& now = bodies.work[body.slot];
   // Divided by the mass and the square of the body's unit, as the inertia per unit mass is.
-  const Scaled pulls = multiply(pulls_on(stage, body), multiply(scaled_from(settings.time), settings.share));
-  const Scaled least = scaled_by_power(pulls, k_kept_power + body.exponent - 2 * properties.size_exponent);
+  const Scaled pulls = multiply(pulls_on(stage, body), scaled_from(settings.time));
+  const Scaled least = scaled_by_power(pulls, body.exponent - 2 * properties.size_exponent);
   body.slowed = 0;
   Scaled about[3];
   for (int i = 0; i < 3; ++i) {

@@ -37,6 +37,8 @@ struct RowMaker {
   const JointWork& joint;
   const JointBody& a;
   const JointBody& b;
+  uint32_t motions;  ///< see make_joint_rows()
+  RowParts parts;
   JointRows& rows;
   Vec3<Real> gap = {};  ///< from A's anchor to B's, m: p_B - p_A
   Matrix3 frame = {};   ///< A's joint frame in the world
@@ -58,9 +60,16 @@ struct RowMaker {
   }
   Real length_of(Real angle) const { return scale_by_power(angle, joint.exponent); }
 
-  void lock(const JointRow& row, Real error) {
+  /// Locks the motion of B's anchor along `axis`.
+  void lock_linear(const Vec3<Unit>& axis) {
+    rows.error[rows.locked_rows] = dot(gap, axis);
+    if (parts == RowParts::all) rows.row[rows.locked_rows] = linear(axis);
+    ++rows.locked_rows;
+  }
+  void lock_angular(const Vec3<Unit>& axis, Real error) {
     rows.error[rows.locked_rows] = error;
-    rows.row[rows.locked_rows++] = row;
+    if (parts == RowParts::all) rows.row[rows.locked_rows] = angular(axis);
+    ++rows.locked_rows;
   }
   /// Locks the anchors together: three rows, along the world's axes e.
   ///
@@ -76,7 +85,7 @@ struct RowMaker {
   /// is the rotation vector: C = 2 q_axis u.
   void clamp_rotation(int axis, Unit part) {
     const Unit sine = relative.w < k_zero_unit ? -part : part;
-    lock(angular(frame.column[axis]), length_of(scale_by_power(real_from_unit(sine, 0), 1)));
+    lock_angular(frame.column[axis], length_of(scale_by_power(real_from_unit(sine, 0), 1)));
   }
   /// Keeps B's axis b = `axis` aligned with A's. Two angular rows, about A's next two axes. With the
   /// components of b in A's frame:
@@ -86,19 +95,27 @@ struct RowMaker {
     const int next = next_of_three(axis), last = previous_of_three(axis);
     const Matrix3 turned = matrix_from(relative);
     const Unit along[3] = {turned.column[axis].x, turned.column[axis].y, turned.column[axis].z};
-    lock(angular(frame.column[next]), length_of(real_from_unit(-along[last], 0)));
-    lock(angular(frame.column[last]), length_of(real_from_unit(along[next], 0)));
+    lock_angular(frame.column[next], length_of(real_from_unit(-along[last], 0)));
+    lock_angular(frame.column[last], length_of(real_from_unit(along[next], 0)));
   }
-  void free_motion(int i, const JointRow& row, Real value) {
-    rows.free_row[i] = row;
+  bool wants(int i) const { return ((motions >> i) & 1) != 0; }
+  void free_motion(int i, Real value) {
     rows.value[i] = value;
     rows.shown[i] = Real(1.0);
   }
+  void free_angular(int i, const Vec3<Unit>& axis, Real value) {
+    if (parts == RowParts::all) rows.free_row[i] = angular(axis);
+    free_motion(i, value);
+  }
   /// The displacement along A's x axis: the value is d . gap.
-  void free_slide(int i) { free_motion(i, linear(frame.column[0]), dot(gap, frame.column[0])); }
+  void free_slide(int i) {
+    if (!wants(i)) return;
+    if (parts == RowParts::all) rows.free_row[i] = linear(frame.column[0]);
+    free_motion(i, dot(gap, frame.column[0]));
+  }
   /// The rotation about one of A's axes: the value is angle u.
   void free_rotation(int i, int axis, Unit sine) {
-    free_motion(i, angular(frame.column[axis]), length_of(twist_of(sine, relative.w)));
+    if (wants(i)) free_angular(i, frame.column[axis], length_of(twist_of(sine, relative.w)));
   }
   /// The twist about x. The relative rotation is split into the shortest rotation from A's x axis to B's, by the angle
   /// l, and a rotation about x, the twist. The rate of the twist is a . (w_B - w_A), where
@@ -107,6 +124,7 @@ struct RowMaker {
   ///
   /// If a exceeds the range of an arm, the row uses the fraction `shown` of a.
   void free_twist(int i) {
+    if (!wants(i)) return;
     const Vec3<Unit> x = {Unit(1.0), k_zero_unit, k_zero_unit}, leaning = rotate(relative, x);
     const Vec3<Unit> own = frame.column[0], other = multiply(frame, leaning);
     const Real rate = real_from_unit(leaning.x, 0) + Real(1.0);
@@ -115,24 +133,25 @@ struct RowMaker {
       return multiply(real_from_unit(of_a, 0) + real_from_unit(of_b, 0), share);
     };
     const Vec3<Unit> axis = clamped_unit({sum(own.x, other.x), sum(own.y, other.y), sum(own.z, other.z)}, 0);
-    free_motion(i, angular(axis), length_of(twist_of(relative.x, relative.w)));
+    free_angular(i, axis, length_of(twist_of(relative.x, relative.w)));
     if (rate < k_twist_rate_min) rows.shown[i] = max(multiply(rate, share), k_zero);
   }
   /// The angle between the x axes of A and B: a rotation about the axis perpendicular to both. Also the rotation of B's
   /// x axis around A's, which has no value.
   void free_lean(int i) {
+    if (!wants(i) && !wants(i + 1)) return;
     const Vec3<Unit> x = {Unit(1.0), k_zero_unit, k_zero_unit}, leaning = rotate(relative, x);
     const Vec3<Real> about = {k_zero, real_from_unit(-leaning.z, 0), real_from_unit(leaning.y, 0)};
     Vec3<Unit> axis;
     Real sine = k_zero;
     if (!normalise(about, axis, sine)) axis = {k_zero_unit, k_zero_unit, Unit(1.0)};
     const Vec3<Unit> in_world = multiply(frame, axis);
-    free_motion(i, angular(in_world), length_of(radians(arc_tangent(unit_from_real(sine, 0), leaning.x))));
-    free_motion(i + 1, angular(clamped_unit(cross(in_metres(frame.column[0], 0), in_world), 0)), k_zero);
+    free_angular(i, in_world, length_of(radians(arc_tangent(unit_from_real(sine, 0), leaning.x))));
+    if (wants(i + 1)) free_angular(i + 1, clamped_unit(cross(in_metres(frame.column[0], 0), in_world), 0), k_zero);
   }
   /// The three rotations about A's axes, for friction. They have no values.
   void free_turns() {
-    for (int i = 0; i < k_free_motions; ++i) free_motion(i, angular(frame.column[i]), k_zero);
+    for (int i = 0; i < k_free_motions; ++i) free_angular(i, frame.column[i], k_zero);
   }
   /// The three rotations about A's axes, for a spring. The values are the components of the rotation vector from A's
   /// frame to B's, times u.
@@ -153,8 +172,9 @@ struct RowMaker {
     Real apart = k_zero;
     if (!normalise(gap, axis, apart)) axis = {Unit(1.0), k_zero_unit, k_zero_unit};
     // Each end has the arm to its own anchor.
-    const JointRow row = {axis, {clamped_cross(rows.arm[0], axis), clamped_cross(rows.arm[1], axis)}};
-    free_motion(0, row, apart);
+    if (parts == RowParts::all)
+      rows.free_row[0] = {axis, {clamped_cross(rows.arm[0], axis), clamped_cross(rows.arm[1], axis)}};
+    free_motion(0, apart);
   }
 
  private:
@@ -400,18 +420,28 @@ bool is_angular(JointType type, int motion) {
   return motion >= 1 || !(type == JointType::slider || type == JointType::distance || type == JointType::wheel);
 }
 
-JointRows make_joint_rows(const JointStage& stage, const JointWork& work) {
+uint32_t driven_motions(const JointState& joint) {
+  uint32_t motions = 0;
+  for (int i = 0; i < driven_motion_count(joint); ++i) motions |= is_driven(joint, i) ? 1u << i : 0u;
+  return motions;
+}
+
+void make_joint_rows(const JointStage& stage, const JointWork& work, uint32_t motions, RowParts parts,
+                     JointRows& rows) {
   const JointState& joint = stage.joints[work.joint];
   const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
   const JointType type = static_cast<JointType>(joint.type);
-  JointRows rows = {};
+  rows.locked_rows = rows.points = 0;
+  for (int i = 0; i < k_free_motions; ++i) {
+    rows.free_row[i] = {};
+    rows.value[i] = rows.shown[i] = k_zero;
+  }
   rows.arm[0] = multiply(a.axes, work.anchor[0]);
   rows.arm[1] = multiply(b.axes, work.anchor[1]);
-  RowMaker make = {work, a, b, rows};
+  RowMaker make = {work, a, b, motions, parts, rows};
   make.gap =
       work.between + (b.place - a.place) + (in_metres(rows.arm[1], b.exponent) - in_metres(rows.arm[0], a.exponent));
-  const bool driven = driven_motion_count(joint) != 0;
-  if ((type != JointType::ball || driven) && type != JointType::distance) {
+  if ((type != JointType::ball || motions != 0) && type != JointType::distance) {
     const Quat frame_a = multiply(a.rotation, joint.frame_a);
     make.frame = matrix_from(frame_a);
     make.relative = multiply(conjugate(frame_a), multiply(b.rotation, joint.frame_b));
@@ -420,9 +450,10 @@ JointRows make_joint_rows(const JointStage& stage, const JointWork& work) {
   switch (type) {
     case JointType::ball:
       make.lock_points();
+      if (motions == 0) break;
       if (has_ball_spring(joint))
         make.free_turns_of_spring();
-      else if (driven)
+      else
         make.free_turns();
       break;
     case JointType::hinge:
@@ -431,8 +462,8 @@ JointRows make_joint_rows(const JointStage& stage, const JointWork& work) {
       make.free_rotation(0, 0, relative.x);
       break;
     case JointType::slider:
-      make.lock(make.linear(make.frame.column[1]), dot(make.gap, make.frame.column[1]));
-      make.lock(make.linear(make.frame.column[2]), dot(make.gap, make.frame.column[2]));
+      make.lock_linear(make.frame.column[1]);
+      make.lock_linear(make.frame.column[2]);
       make.clamp_rotation(0, relative.x);
       make.clamp_rotation(1, relative.y);
       make.clamp_rotation(2, relative.z);
@@ -453,8 +484,8 @@ JointRows make_joint_rows(const JointStage& stage, const JointWork& work) {
       make.free_lean(1);
       break;
     case JointType::wheel:
-      make.lock(make.linear(make.frame.column[1]), dot(make.gap, make.frame.column[1]));
-      make.lock(make.linear(make.frame.column[2]), dot(make.gap, make.frame.column[2]));
+      make.lock_linear(make.frame.column[1]);
+      make.lock_linear(make.frame.column[2]);
       make.lock_axis(2);
       make.free_slide(0);
       make.free_rotation(1, 2, relative.z);
@@ -466,7 +497,6 @@ JointRows make_joint_rows(const JointStage& stage, const JointWork& work) {
     default:
       break;
   }
-  return rows;
 }
 
 void choose_drives(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointWork& work) {

@@ -45,11 +45,6 @@ constexpr int k_straight_power = 20;
 constexpr Real k_length_max = 32768.0;
 Real clamped_sum(Real a, Real b) { return min(a + min(b, k_length_max), k_length_max); }
 
-/// The ratio of the impulses that a joint stores to its impulses in a substep.
-Scaled kept_share(const StepSettings& settings) {
-  return scaled_by_power(scaled_from_count(settings.substeps), -k_kept_power);
-}
-
 /// Solves the joints of one assembly.
 struct Solver {
   const StepSettings& settings;
@@ -60,6 +55,9 @@ struct Solver {
   bool touches;  ///< the island has contacts, which are solved in alternation with the joints
   Real elapsed;  ///< from the start of the tick to the start of the substep
   Real enough;   ///< see solve_joints_again()
+  /// Twice the energy of the last solution's impulses x, x . K x, or a little more: x . (K + S) x. Over the reference
+  /// mass.
+  Scaled own_energy = Scaled(0.0);
   uint32_t clamped = 0, undecided = 0;
 
   Solver(const StepSettings& of_step, const SolverBodies& all, const Island& island, Span<const uint32_t> of_assembly,
@@ -165,8 +163,8 @@ struct Solver {
       body.angular_momentum_before = motion.angular_momentum;
     });
     each_joint([&](JointWork& work) {
-      static_cast<JointRows&>(work) = make_joint_rows(stage, work);
-      if (elapsed == k_zero) work.pull = last_pull(stage, work);
+      make_joint_rows(stage, work, driven_motions(stage.joints[work.joint]), RowParts::all, work);
+      if (elapsed == k_zero) work.pull = last_pull(settings, stage, work);
     });
     each_mobile([&](JointBody& body) { load_inertia(settings, bodies, stage, body); });
     if (elapsed == k_zero) each_joint([&](JointWork& work) { choose_unit(stage, work); });
@@ -238,7 +236,6 @@ struct Solver {
   /// paths is below the precision. A distance joint always counts, because a rod can rotate while its bodies do not.
   bool any_turns() {
     bool turns = false;
-    each_mobile([&](JointBody& body) { load_motion(body); });
     each_joint([&](const JointWork& work) {
       for (const uint32_t at : work.body) {
         const JointBody& body = stage.bodies[at];
@@ -248,20 +245,6 @@ struct Solver {
       if (static_cast<JointType>(stage.joints[work.joint].type) == JointType::distance) turns = true;
     });
     return turns;
-  }
-
-  /// Twice the energy that the locked rows would remove from the motion at the start of the substep.
-  Scaled rotational_energy() {
-    each_mobile([&](JointBody& body) {
-      body.linear_velocity = body.velocity_before;
-      body.angular_velocity = angular_velocity_from(body, body.angular_momentum_before);
-    });
-    each_joint([&](JointWork& work) {
-      Real speed[k_joint_rows_max];
-      speeds(work, speed);
-      for (uint32_t k = 0; k < work.rows; ++k) work.side[k] = is_locked(work, k) ? side_of(work, k, -speed[k]) : k_zero;
-    });
-    return factor.substitute();
   }
 
   /// Makes the factor of the joints' rows, with the current drive modes.
@@ -354,7 +337,7 @@ struct Solver {
     const uint32_t before = factor.saturated;
     for (;;) {
       ask();
-      factor.substitute();
+      own_energy = factor.substitute();
       factor.solve();
       if (factor.saturated == before && greatest_impulse() <= k_solution_max && gather_joints()) return 0;
       if (!factor.make_softer()) return gather_less();
@@ -394,7 +377,16 @@ struct Solver {
   /// energy.
   void keep_sound() {
     if (is_sound()) return;
-    scale_all(share_within(Scaled(0.0)));
+    EnergySum shared, own;
+    each_mobile([&](JointBody& body) { load_motion(body); });
+    each_joint([&](const JointWork& work) { add_product(work, work.rows, shared); });
+    each_mobile([&](JointBody& body) {
+      body.linear_velocity = body.push;
+      body.angular_velocity = angular_velocity_from(body, body.twist);
+    });
+    place_motionless();
+    each_joint([&](const JointWork& work) { add_product(work, work.rows, own); });
+    scale_all(share_within(own.value(), shared.value(), Scaled(0.0)));
     place_still(elapsed);
   }
 
@@ -472,7 +464,10 @@ struct Solver {
     });
     place_still(elapsed + settings.time);
     each_joint([&](JointWork& work) {
-      const JointRows then = make_joint_rows(stage, work);
+      uint32_t motions = 0;
+      for (uint32_t i = 0; i < k_free_motions; ++i) motions |= is_at_limit(work.mode[i]) ? 1u << i : 0u;
+      JointRows then;
+      make_joint_rows(stage, work, motions, RowParts::errors, then);
       const auto ask = [&](uint32_t row, Real error) {
         work.side[row] = side_of(work, row, speed_over(settings, work.error[row] - error));
       };
@@ -480,7 +475,7 @@ struct Solver {
       for (uint32_t k = then.locked_rows; k < work.rows; ++k) work.side[k] = k_zero;
       for (int i = 0; i < k_free_motions; ++i) {
         const uint32_t row = work.driven[i];
-        if (row == k_joint_rows_max || !is_locked(work, row)) continue;
+        if (row == k_joint_rows_max || !is_at_limit(work.mode[i])) continue;
         const Real displacement = work.target[row] * settings.time;
         ask(row, work.error[row] + (then.value[i] - work.value[i] - displacement));
       }
@@ -488,41 +483,48 @@ struct Solver {
     place_moving();
   }
 
-  /// Adds the velocities by which the joints follow their curved paths, scaled so that they add at most the energy
-  /// `taken`.
-  void follow_curves(Scaled taken) {
+  /// Adds the velocities by which the joints follow their curved paths. With the impulses x that give these velocities,
+  /// the projection has removed at least the energy that the best multiple of x would have removed from the motion u at
+  /// the start of the substep: (x . J u)^2 / (x . K x) is twice this energy. The velocities are scaled so that they add
+  /// no more. Range: load_motion() has been called for the bodies.
+  void follow_curves() {
     clamped += solve_for([&] { ask_for_curves(); });
-    scale_all(share_within(is_sound() ? taken : Scaled(0.0)));
+    EnergySum shared, opposed;
+    each_joint([&](const JointWork& work) { add_product(work, work.rows, shared); });
+    each_mobile([&](JointBody& body) {
+      body.linear_velocity = body.velocity_before;
+      body.angular_velocity = angular_velocity_from(body, body.angular_momentum_before);
+    });
+    each_joint([&](const JointWork& work) { add_locked_product(work, opposed); });
+    scale_all(is_sound() ? share_within(own_energy, shared.value(), opposed.value()) : Scaled(0.0));
     each_mobile([&](JointBody& body) { apply(body); });
     each_joint([&](JointWork& work) { count_in(work); });
   }
 
-  /// The largest x in [0, 1] for which x times the gathered impulses add at most the energy `allowed`. With the energy
-  /// `own` of the impulses and the product `shared` of impulses and motion: x^2 own + 2 x shared <= allowed; all are
-  /// twice energies.
-  Scaled share_within(Scaled allowed) {
-    EnergySum own, shared;
-    const auto add_up = [&](EnergySum& sum) {
-      each_joint([&](JointWork& work) {
-        Real speed[k_joint_rows_max];
-        speeds(work, speed);
-        for (uint32_t k = 0; k < work.rows; ++k) sum.add(work.impulse[k], scale_by_power(speed[k], power_of(work, k)));
-      });
-    };
-    each_mobile([&](JointBody& body) { load_motion(body); });
-    add_up(shared);
-    each_mobile([&](JointBody& body) {
-      body.linear_velocity = body.push;
-      body.angular_velocity = angular_velocity_from(body, body.twist);
-    });
-    place_motionless();
-    add_up(own);
-    const Scaled square = own.value(), line = shared.value(), one = 1.0;
-    if (!less(allowed, add(square, scaled_by_power(line, 1)))) return one;
-    const Scaled root = square_root(add(multiply(line, line), multiply(square, allowed)));
-    const Scaled rest = add(root, negate(line));
-    const Scaled share = is_positive(square) && is_positive(rest) ? divide(rest, square) : Scaled(0.0);
-    return less(one, share) ? one : share;
+  /// Adds the product of a joint's impulses and the speeds of its rows, at the bodies' current velocities.
+  void add_product(const JointWork& work, uint32_t rows, EnergySum& sum) const {
+    Real speed[k_joint_rows_max];
+    speeds(work, speed);
+    for (uint32_t k = 0; k < rows; ++k) sum.add(work.impulse[k], scale_by_power(speed[k], power_of(work, k)));
+  }
+  /// The same for the rows that lock motions.
+  void add_locked_product(const JointWork& work, EnergySum& sum) const {
+    Real speed[k_joint_rows_max];
+    speeds(work, speed);
+    for (uint32_t k = 0; k < work.rows; ++k) {
+      if (is_locked(work, k)) sum.add(work.impulse[k], scale_by_power(speed[k], power_of(work, k)));
+    }
+  }
+
+  /// The largest y in [0, 1] for which y times the impulses x add at most the energy of `opposed`: y^2 own + 2 y shared
+  /// <= opposed^2 / own. `own`: twice the energy of the impulses, x . K x. `shared`, `opposed`: their products x . J v
+  /// with the current motion, and with the motion that has been projected.
+  static Scaled share_within(Scaled own, Scaled shared, Scaled opposed) {
+    const Scaled one = 1.0;
+    const Scaled root = square_root(add(multiply(shared, shared), multiply(opposed, opposed)));
+    const Scaled most = add(root, negate(shared));
+    if (!less(most, own)) return one;
+    return is_positive(most) ? divide(most, own) : Scaled(0.0);
   }
   void scale_all(Scaled share) {
     if (share == Scaled(1.0)) return;
@@ -635,46 +637,15 @@ struct Solver {
 
   /// Adds the impulses of a joint to its sums of force and torque.
   static void add_up(JointWork& work) {
-    if (work.points != 0) work.force_sum += Vec3<Real>{work.total[0], work.total[1], work.total[2]};
-    for (uint32_t k = first_other(work); k < work.locked_rows; ++k) add_row(work, work.row[k], work.total[k]);
+    work.force_sum += linear_impulse(work);
+    for (uint32_t k = first_other(work); k < work.locked_rows; ++k) add_torque(work, work.row[k], work.total[k]);
     for (int i = 0; i < k_free_motions; ++i) {
-      if (!(work.driven_total[i] == k_zero)) add_row(work, work.free_row[i], work.driven_total[i]);
-    }
-    for (int i = 0; i < k_free_motions; ++i) {
-      if (!(work.given[i] == k_zero)) add_row(work, work.free_row[i], work.given[i]);
+      const Real impulse = work.driven_total[i] + work.given[i];
+      if (!(impulse == k_zero)) add_torque(work, work.free_row[i], impulse);
     }
   }
-  static void add_row(JointWork& work, const JointRow& row, Real impulse) {
-    if (is_linear(row))
-      work.force_sum += real_from(row.axis) * impulse;
-    else
-      work.torque_sum += real_from(row.arm[1]) * impulse;
-  }
-
-  /// Stores the impulses, which load_inertia() uses in the next substep. Each is clamped to k_joint_impulse_max.
-  void keep(JointWork& work, Scaled share) const {
-    Real(&kept)[k_joint_rows_max] = stage.joints[work.joint].impulse;
-    const Scaled over_share = multiply(share, work.over_lighter);
-    const auto store = [&](uint32_t k, int kind, Real total) {
-      bool saturated = false;
-      const Real impulse = multiply(total, scaled_by_power(over_share, impulse_power(work, kind)), saturated);
-      kept[k] = clamp(impulse, -k_joint_impulse_max, k_joint_impulse_max);
-    };
-    for (uint32_t k = 0; k < work.locked_rows; ++k) store(k, row_kind(work, k), work.total[k]);
-    for (uint32_t i = 0; i < k_free_motions && work.locked_rows + i < k_joint_rows_max; ++i)
-      store(work.locked_rows + i, row_kind(work.free_row[i]), work.driven_total[i]);
-    work.pull = last_pull(stage, work);
-  }
-  /// Stores the impulses including those of follow_curves(), scaled so that `pull` at most doubles. The limit is
-  /// necessary because curved paths give redundant rows contradictory targets. These rows then pull against each other
-  /// as hard as their softness permits.
-  void keep_all(JointWork& work, Scaled share) const {
-    const Real most = scale_by_power(work.pull, 1);
-    keep(work, share);
-    if (work.pull <= most) return;
-    const Scaled part = divide(scaled_from(most), scaled_from(work.pull));
-    for (Real& kept : stage.joints[work.joint].impulse) kept = multiply(kept, part);
-    work.pull = most;
+  static void add_torque(JointWork& work, const JointRow& row, Real impulse) {
+    if (!is_linear(row)) work.torque_sum += real_from(row.arm[1]) * impulse;
   }
 
   /// The first solve of a substep.
@@ -686,12 +657,9 @@ struct Solver {
   }
   /// Adds the motion along curved paths, and computes the shifts that close gaps.
   void follow() {
-    const Scaled share = kept_share(settings);
-    each_joint([&](JointWork& work) { keep(work, share); });
-    if (any_turns()) {
-      const Scaled taken = rotational_energy();
-      follow_curves(taken);
-    }
+    each_joint([&](JointWork& work) { work.pull = pull_of(work); });
+    each_mobile([&](JointBody& body) { load_motion(body); });
+    if (any_turns()) follow_curves();
     close_gaps();
     if (touches) renew_angular_velocities();
     lend_momenta();
@@ -699,10 +667,11 @@ struct Solver {
   /// Ends a substep.
   void end() {
     if (touches) solve_again();
-    const Scaled share = kept_share(settings);
     each_joint([&](JointWork& work) {
       add_up(work);
-      keep_all(work, share);
+      // The limit is necessary because curved paths give redundant rows contradictory targets. These rows then pull
+      // against each other as hard as their softness permits.
+      work.pull = min(pull_of(work), scale_by_power(work.pull, 1));
     });
     restore_inertias();
   }
@@ -784,6 +753,7 @@ void store_reactions(const StepSettings& settings, const SolverBodies& bodies, J
             multiply(scaled_from(sum.z), factor)};
     };
     JointState& joint = stage.joints[work.joint];
+    store_impulses(stage.activities[mobile.slot].substeps, work, joint);
     store(work.force_sum, impulse_power(work, 0), joint.force);
     store(work.torque_sum, b.exponent + impulse_power(work, 1), joint.torque);
   }

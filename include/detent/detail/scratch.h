@@ -293,7 +293,7 @@ struct alignas(8) JointWork : JointWorkStart, JointRows {
   Real side[k_joint_rows_max];                             ///< right-hand side of a solve, then L^-1 times it
   Real impulse[k_joint_rows_max];                          ///< solution of a solve
   Real total[k_joint_rows_max];                            ///< impulses of the rows that always act, in this substep
-  Real pull;  ///< size of the linear impulse of the last substep, in units of JointState::impulse
+  Real pull;  ///< magnitude of the linear impulse in the last substep / mass of the lighter body, m/s
   int32_t row_power[k_joint_rows_max];  ///< exponent of the unit of each row
 };
 
