@@ -22,11 +22,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// A path need not be valid UTF-8: invalid bytes are replaced.
-void print_json(const Json& json) { printf("%s\n", json.dump(-1, ' ', false, Json::error_handler_t::replace).c_str()); }
+void print_cooked(const Json& json) {
+  printf("%s\n", json.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
+}
 
 bool fail(const std::string& path, const std::string& problem, bool json) {
   if (json) {
-    print_json({{"file", path}, {"ok", false}, {"problem", problem}});
+    print_cooked({{"file", path}, {"ok", false}, {"problem", problem}});
   } else {
     fprintf(stderr, "%s: %s\n", printable(path).c_str(), printable(problem).c_str());
   }
@@ -124,7 +126,7 @@ Json json_of(const std::string& path, const detent_cook::CompoundDescription& co
 
 void say(const std::string& path, const detent_cook::CompoundDescription& compound, bool json) {
   if (json) {
-    print_json(json_of(path, compound));
+    print_cooked(json_of(path, compound));
     return;
   }
   printf("%s: %u parts, %u of them hulls, radius %.6g m, thinnest %.6g m, volume %.6g m^3, ", printable(path).c_str(),
@@ -164,7 +166,8 @@ bool cook_mesh_file(const MeshRequest& request, bool json, const detent_cook::Co
   const detent_cook::MeshRead read = detent_cook::read_mesh_file(request.input, source.text, progress);
   if (!read.problem.empty()) return fail(request.input, read.problem, json);
   for (const std::string& buffer : read.buffers) {
-    if (is_same_file(buffer, request.output)) return fail(request.output, "is an input file, and is not overwritten", json);
+    if (is_same_file(buffer, request.output))
+      return fail(request.output, "is an input file, and is not overwritten", json);
   }
   const detent_cook::MeshResult result = detent_cook::cook_mesh(read.mesh, request.options, progress);
   if (result.bytes.empty()) return fail(request.input, result.reason, json);
@@ -179,7 +182,7 @@ bool cook_mesh_file(const MeshRequest& request, bool json, const detent_cook::Co
     object["repeated"] = result.repeated;
     object["forked"] = result.forked_edges;
     object["bytes"] = result.bytes.size();
-    print_json(object);
+    print_cooked(object);
     return true;
   }
   print_text(request.output, terrain);
@@ -205,7 +208,7 @@ bool cook_height_field_file(const HeightFieldRequest& request, bool json) {
     Json object = json_of(request.output, terrain);
     object["height_step"] = result.height_step;
     object["bytes"] = result.bytes.size();
-    print_json(object);
+    print_cooked(object);
     return true;
   }
   print_text(request.output, terrain);
@@ -219,7 +222,7 @@ bool describe_terrain_file(const std::string& path, bool json) {
   const detent_cook::TerrainDescription terrain = detent_cook::describe_terrain(bytes);
   if (!terrain.problem.empty()) return fail(path, terrain.problem, json);
   if (json) {
-    print_json(json_of(path, terrain));
+    print_cooked(json_of(path, terrain));
   } else {
     print_text(path, terrain);
     printf("\n");
@@ -245,7 +248,7 @@ bool cook_file(const CookRequest& request, bool json) {
     object["reduced"] = result.reduced;
     object["error"] = result.error;
     object["bytes"] = result.bytes.size();
-    print_json(object);
+    print_cooked(object);
     return true;
   }
   print_text(request.output, hull);
@@ -263,7 +266,7 @@ bool describe_hull_file(const std::string& path, bool json) {
   const detent_cook::HullDescription hull = detent_cook::describe_hull(bytes);
   if (!hull.problem.empty()) return fail(path, hull.problem, json);
   if (json) {
-    print_json(json_of(path, hull));
+    print_cooked(json_of(path, hull));
   } else {
     print_text(path, hull);
     printf("\n");

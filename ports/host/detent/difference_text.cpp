@@ -7,7 +7,7 @@ namespace detent_tool {
 
 namespace {
 
-std::string text(uint64_t value) { return std::to_string(value); }
+std::string decimal(uint64_t value) { return std::to_string(value); }
 
 std::string decimal(double value, int digits) {
   char text[40];
@@ -27,14 +27,14 @@ void write_numbers(double a, double b, std::string& text_a, std::string& text_b)
 std::string name_of(const ElementName& element) {
   const auto body = [&element](size_t i) {
     const std::string generation =
-        element.generations[i] == 0 ? "" : " (generation " + text(element.generations[i]) + ")";
-    return text(element.slots[i]) + generation;
+        element.generations[i] == 0 ? "" : " (generation " + decimal(element.generations[i]) + ")";
+    return decimal(element.slots[i]) + generation;
   };
   std::string name = element.kind;
-  if (element.kind == "asset" && element.slots.size() == 1) return name + " " + text(element.slots[0]);
+  if (element.kind == "asset" && element.slots.size() == 1) return name + " " + decimal(element.slots[0]);
   if (element.slots.size() == 1) name += " " + body(0);
   if (element.slots.size() == 2) name += " of bodies " + body(0) + " and " + body(1);
-  if (element.part != 0) name += ", part " + text(element.part);
+  if (element.part != 0) name += ", part " + decimal(element.part);
   return name;
 }
 
@@ -65,7 +65,7 @@ std::string line_of(const FieldDifference& field, const std::string& a, const st
 }
 
 std::string line_of(const CallDifference& call, const std::string& a, const std::string& b) {
-  std::string line = "call " + text(call.index) + " before tick " + text(call.tick) + ": ";
+  std::string line = "call " + decimal(call.index) + " before tick " + decimal(call.tick) + ": ";
   if (call.a.empty() || call.b.empty()) {
     const bool in_a = call.b.empty();
     line += in_a ? call.a : call.b;
@@ -90,10 +90,11 @@ std::string first_of(const Difference& difference, const std::string& a, const s
 std::string where(const Difference& difference) {
   if (difference.stage == "seed") return "their seeds differ";
   const std::string equal =
-      difference.equal_to < difference.first ? "" : "equal up to tick " + text(difference.equal_to) + "; ";
+      difference.equal_to < difference.first ? "" : "equal up to tick " + decimal(difference.equal_to) + "; ";
   if (difference.after_last_tick) return equal + "what comes after the last tick differs";
-  if (difference.tick == difference.equal_to + 1) return equal + "tick " + text(difference.tick) + " differs";
-  return equal + "one of the ticks " + text(difference.equal_to + 1) + " to " + text(difference.tick) + " differs";
+  if (difference.tick == difference.equal_to + 1) return equal + "tick " + decimal(difference.tick) + " differs";
+  return equal + "one of the ticks " + decimal(difference.equal_to + 1) + " to " + decimal(difference.tick) +
+         " differs";
 }
 
 }  // namespace
@@ -104,7 +105,7 @@ std::string difference_text(const Difference& difference, const std::string& a, 
   if (!difference.different) {
     text_of = difference.last < difference.first
                   ? "no tick to compare"
-                  : "equal in ticks " + text(difference.first) + " to " + text(difference.last);
+                  : "equal in ticks " + decimal(difference.first) + " to " + decimal(difference.last);
   } else {
     text_of = where(difference);
     const std::string first = first_of(difference, a, b);
@@ -115,7 +116,7 @@ std::string difference_text(const Difference& difference, const std::string& a, 
     const size_t told = by_call ? 0 : 1;
     for (size_t i = told; i < difference.fields.size(); ++i) text_of += "\n  " + line_of(difference.fields[i], a, b);
     if (difference.field_count > difference.fields.size())
-      text_of += "\n  and " + text(difference.field_count - difference.fields.size()) + " more";
+      text_of += "\n  and " + decimal(difference.field_count - difference.fields.size()) + " more";
   }
   for (const std::string& note : difference.notes) text_of += "\n  " + printable(note);
   for (const std::string& command : difference.wanted)

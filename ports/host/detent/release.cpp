@@ -45,8 +45,7 @@ Outcome unanswered(const std::string& release, const std::string& why) {
 
 /// `line` is the output of another program, so every field of it is checked.
 Outcome outcome_of(const std::string& release, const std::string& line) {
-  using Json = nlohmann::json;
-  const Json json = Json::parse(line, nullptr, false);
+  const nlohmann::ordered_json json = nlohmann::ordered_json::parse(line, nullptr, false);
   if (!json.is_object()) return unanswered(release, "gave no line of JSON");
   const auto text = [&json](const char* key) {
     const auto found = json.find(key);

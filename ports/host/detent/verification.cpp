@@ -52,7 +52,7 @@ std::string read_lines(const std::string& path, std::vector<std::string>& lines)
 std::map<std::string, bool> log_of(const std::vector<std::string>& lines) {
   std::map<std::string, bool> log;
   for (const std::string& line : lines) {
-    const nlohmann::json json = nlohmann::json::parse(line, nullptr, false);
+    const nlohmann::ordered_json json = nlohmann::ordered_json::parse(line, nullptr, false);
     if (!json.is_object()) continue;
     const auto name = json.find("file"), ok = json.find("ok");
     if (name == json.end() || ok == json.end() || !name->is_string() || !ok->is_boolean()) continue;

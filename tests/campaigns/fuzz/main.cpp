@@ -5,24 +5,7 @@
 
 #include "tests/campaigns/fuzz/target.h"
 
-// DETENT_FUZZ_TARGETS: X(namespace, name) for each of this program's targets, one a configuration.
-#define X(space, name)                   \
-  namespace space {                      \
-  extern const detent_fuzz::Target name; \
-  }
-DETENT_FUZZ_TARGETS
-#undef X
-
-namespace {
-
-const detent_fuzz::Target* const k_targets[] = {
-#define X(space, name) &space::name,
-    DETENT_FUZZ_TARGETS
-#undef X
-};
-constexpr size_t k_target_count = sizeof k_targets / sizeof *k_targets;
-
-}  // namespace
+using detent_fuzz::k_target_count, detent_fuzz::k_targets;
 
 extern "C" int LLVMFuzzerInitialize(int* argument_count, char*** arguments);
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t count);

@@ -14,4 +14,8 @@ struct Target {
   std::vector<Bytes> (*seeds)();
 };
 
+/// Those of a program of libFuzzer's (list.cpp).
+extern const Target* const k_targets[];
+extern const size_t k_target_count;
+
 }  // namespace detent_fuzz
