@@ -116,8 +116,9 @@ struct Profile {
 
 struct StepReport;
 
-/// A callback at the end of each stage of each step that is not idle. It is for tools that find the stage in which two
-/// machines begin to differ. Set WorldHooks::observer to use it. An observer does not change the state.
+/// A callback at the end of each stage of a step. An idle step makes no calls: if no body moves and none was changed,
+/// the step only counts the tick. The callback is for tools that find the stage in which two machines begin to differ.
+/// Set WorldHooks::observer to use it. An observer does not change the state.
 struct StepObserver {
   /// `contacts`: number of contacts that the step has found so far, in its work space. The callback must not change the
   /// world. The state is incomplete within the step, so the callback may call only these functions of world.h:

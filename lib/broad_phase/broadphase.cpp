@@ -53,8 +53,8 @@ bool is_dynamic_type(const BodyProperties& properties) {
   return properties.type == static_cast<uint32_t>(BodyType::dynamic);
 }
 
-/// Converts a length to steps of a coordinate.
-int64_t steps_of(Real length) {
+/// Converts a length, m, to the integer unit of integer_from(): 2^-k_coord_bits m.
+int64_t integer_length(Real length) {
 #if DETENT_FIXED
   return length.raw >> (Real::k_frac - Coord::k_frac);
 #else
@@ -74,7 +74,7 @@ uint64_t depth_within(const BodyPose& half_space, const Bounds& box) {
   const Unit zero = 0.0;
   const Position lowest = {up.x > zero ? box.lower.x : box.upper.x, up.y > zero ? box.lower.y : box.upper.y,
                            up.z > zero ? box.lower.z : box.upper.z};
-  const int64_t height = steps_of(distance_along(half_space.position, lowest, up));
+  const int64_t height = integer_length(distance_along(half_space.position, lowest, up));
   return height < 0 ? static_cast<uint64_t>(-height) : 0;
 }
 

@@ -206,9 +206,9 @@ __attribute__((noinline)) bool find_level_box_face(const BoxAndSegment& pair, Un
   return false;
 }
 
-/// Handles a capsule that lies across a side of a face whose normal is within 2^-3 rad of the contact normal: the
-/// contact gets that face. Otherwise the capsule would touch at one end in one tick and at the other end in the next
-/// tick. Returns false if there is no such face.
+/// Handles a capsule that crosses an edge of the box. If the normal of a face is within 2^-3 rad of the contact normal,
+/// and a part of the capsule's segment lies over this face, the contact is moved to the face. Otherwise the capsule would
+/// touch at one end in one tick and at the other end in the next tick. Returns false if there is no such face.
 __attribute__((noinline)) bool find_leaning_box_face(const BoxAndSegment& pair, BoxContact& contact) {
   constexpr Unit k_leaning_cosine = 1.0 - 0x1p-7;  // 2^-3 rad, as for faces of hulls
   for (int axis = 0; axis < 3; ++axis) {

@@ -162,7 +162,8 @@ void Builder::add_point(const Vec32& normal, const Vec64& twice_middle, int64_t 
   Vec64 from_a = {component(m.x, normal.x), component(m.y, normal.y), component(m.z, normal.z)};
   Vec64 from_b = {component(m.x - 2 * int64_t{o.x}, normal.x), component(m.y - 2 * int64_t{o.y}, normal.y),
                   component(m.z - 2 * int64_t{o.z}, normal.z)};
-  // A half-space's position may lie anywhere in its plane, too far away for the block.
+  // A half-space's position may be too far away to be represented in the block. Its arm is therefore the other body's
+  // arm plus the offset of the positions in 2^-46 m.
   const Vec64& shift = pair_.offset_metres;
   if (pair_.a.convex->type == ShapeType::half_space)
     from_a = {saturated(from_b.x, shift.x), saturated(from_b.y, shift.y), saturated(from_b.z, shift.z)};

@@ -39,7 +39,8 @@ inline ContactRules rules_of(int64_t margin, ManifoldReduction reduction) {
   return {margin, 0, reduction, true, false};
 }
 
-/// As contact_points(), for a pair in its block.
+/// As contact_points(), but in integers: the pair is in block floating point (RestingPair), and the result is in
+/// 2^-46 m.
 void find_contact_points(const RestingPair& pair, const ContactRules& rules, DistanceCache* cache,
                          BlockManifold& manifold);
 

@@ -207,8 +207,8 @@ uint32_t driven_motions(const JointState& joint);
 /// Parts of a joint's rows: all, or only `locked_rows`, `points`, `arm`, the errors, and the values of the free
 /// motions.
 enum class RowParts : uint8_t { all, errors };
-/// Makes the rows of a joint at the current poses of its bodies, without the free motions that are not in `motions`
-/// (bit i for free motion i).
+/// Makes the rows of a joint at the current poses of its bodies. `motions`: the free motions that the caller needs (bit i
+/// for free motion i); others may be left out.
 void make_joint_rows(const JointStage& stage, const JointWork& work, uint32_t motions, RowParts parts, JointRows& rows);
 /// Chooses the drive mode of each free motion, before the rows are solved and before forces and impulses act in the
 /// substep. A limit that the motion would pass in this substep is activated.
@@ -238,9 +238,9 @@ void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, c
                      JointWork& work);
 /// The linear impulse on B in the current substep, in the unit of the joint's linear rows.
 Vec3<Real> linear_impulse(const JointWork& work);
-/// The magnitude of linear_impulse() / mass of the lighter body, m/s. Overflow: k_joint_impulse_max.
-Real pull_of(const JointWork& work);
-/// The same for the last substep of the last tick, from the stored impulses, at the current number of substeps.
+/// The magnitude of an impulse in that unit / mass of the lighter body, m/s. Overflow: k_joint_impulse_max.
+Real pull_of(const JointWork& work, const Vec3<Real>& impulse);
+/// The pull in the last substep of the last tick, from the stored impulses, at the current number of substeps.
 Real last_pull(const StepSettings& settings, const JointStage& stage, const JointWork& work);
 /// Stores the impulses of the last of `substeps` substeps, for last_pull(). They are scaled down to JointWork::pull.
 /// Overflow: each is clamped to k_joint_impulse_max.

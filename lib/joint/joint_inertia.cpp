@@ -21,48 +21,59 @@ Scaled pulls_on(const JointStage& stage, const JointBody& body) {
   return sum;
 }
 
-}  // namespace
+/// The impulses of a joint in this substep: those of the rows that always act, then those of the free motions.
+struct RowImpulses {
+  Real of[k_joint_rows_max] = {};
 
-Vec3<Real> linear_impulse(const JointWork& work) {
+  explicit RowImpulses(const JointWork& work) {
+    for (uint32_t k = 0; k < work.locked_rows; ++k) of[k] = work.total[k];
+    for (uint32_t i = 0; i < free_rows(work); ++i) of[work.locked_rows + i] = work.driven_total[i] + work.given[i];
+  }
+  static uint32_t free_rows(const JointRows& rows) {
+    const uint32_t rest = k_joint_rows_max - rows.locked_rows;
+    return rest < k_free_motions ? rest : k_free_motions;
+  }
+};
+
+/// The sum of axis x impulse over the linear rows, with impulses in the order of RowImpulses.
+Vec3<Real> linear_sum(const JointRows& rows, const Real (&impulse)[k_joint_rows_max]) {
   Vec3<Real> sum = k_zero_vector;
-  const auto add_row = [&](const JointRow& row, Real impulse) {
-    if (is_linear(row)) sum += row.axis * impulse;
+  const auto add_row = [&](const JointRow& row, Real part) {
+    if (is_linear(row)) sum += row.axis * part;
   };
-  if (work.points != 0) sum = {work.total[0], work.total[1], work.total[2]};
-  for (uint32_t k = first_other(work); k < work.locked_rows; ++k) add_row(work.row[k], work.total[k]);
-  for (int i = 0; i < k_free_motions; ++i) add_row(work.free_row[i], work.driven_total[i] + work.given[i]);
+  if (rows.points != 0) sum = {impulse[0], impulse[1], impulse[2]};
+  for (uint32_t k = first_other(rows); k < rows.locked_rows; ++k) add_row(rows.row[k], impulse[k]);
+  for (uint32_t i = 0; i < RowImpulses::free_rows(rows); ++i) add_row(rows.free_row[i], impulse[rows.locked_rows + i]);
   return sum;
 }
 
-Real pull_of(const JointWork& work) {
+}  // namespace
+
+Vec3<Real> linear_impulse(const JointWork& work) { return linear_sum(work, RowImpulses(work).of); }
+
+Real pull_of(const JointWork& work, const Vec3<Real>& impulse) {
   bool saturated = false;
   const Scaled unit = scaled_by_power(work.over_lighter, impulse_power(work, 0));
-  return min(multiply(length(linear_impulse(work)), unit, saturated), k_joint_impulse_max);
+  return min(multiply(length(impulse), unit, saturated), k_joint_impulse_max);
 }
 
 Real last_pull(const StepSettings& settings, const JointStage& stage, const JointWork& work) {
-  const Real(&impulse)[k_joint_rows_max] = stage.joints[work.joint].impulse;
-  Vec3<Real> sum = k_zero_vector;
-  if (work.points != 0) sum = {impulse[0], impulse[1], impulse[2]};
-  for (uint32_t k = first_other(work); k < work.locked_rows; ++k) sum += work.row[k].axis * impulse[k];
-  for (uint32_t i = 0; i < k_free_motions && work.locked_rows + i < k_joint_rows_max; ++i)
-    sum += work.free_row[i].axis * impulse[work.locked_rows + i];
   bool saturated = false;
-  return min(multiply(length(sum), scaled_by_power(settings.share, k_kept_power), saturated), k_joint_impulse_max);
+  const Real length_of_sum = length(linear_sum(work, stage.joints[work.joint].impulse));
+  return min(multiply(length_of_sum, scaled_by_power(settings.share, k_kept_power), saturated), k_joint_impulse_max);
 }
 
 void store_impulses(uint32_t substeps, const JointWork& work, JointState& joint) {
-  const Real now = pull_of(work);
+  const RowImpulses impulses(work);
+  const Real now = pull_of(work, linear_sum(work, impulses.of));
   Scaled share = multiply(scaled_by_power(scaled_from_count(substeps), -k_kept_power), work.over_lighter);
   if (now > work.pull) share = multiply(share, divide(scaled_from(work.pull), scaled_from(now)));
-  const auto store = [&](uint32_t k, int kind, Real total) {
+  for (uint32_t k = 0; k < work.locked_rows + RowImpulses::free_rows(work); ++k) {
+    const int kind = k < work.locked_rows ? row_kind(work, k) : row_kind(work.free_row[k - work.locked_rows]);
     bool saturated = false;
-    const Real impulse = multiply(total, scaled_by_power(share, impulse_power(work, kind)), saturated);
+    const Real impulse = multiply(impulses.of[k], scaled_by_power(share, impulse_power(work, kind)), saturated);
     joint.impulse[k] = clamp(impulse, -k_joint_impulse_max, k_joint_impulse_max);
-  };
-  for (uint32_t k = 0; k < work.locked_rows; ++k) store(k, row_kind(work, k), work.total[k]);
-  for (uint32_t i = 0; i < k_free_motions && work.locked_rows + i < k_joint_rows_max; ++i)
-    store(work.locked_rows + i, row_kind(work.free_row[i]), work.driven_total[i] + work.given[i]);
+  }
 }
 
 void load_inertia(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointBody& body) {

@@ -113,7 +113,7 @@ struct RowMaker {
     if (parts == RowParts::all) rows.free_row[i] = linear(frame.column[0]);
     free_motion(i, dot(gap, frame.column[0]));
   }
-  /// The rotation about one of A's axes: the value is angle u.
+  /// The rotation about one of A's axes. The value is the angle times u, the joint's unit of length.
   void free_rotation(int i, int axis, Unit sine) {
     if (wants(i)) free_angular(i, frame.column[axis], length_of(twist_of(sine, relative.w)));
   }

@@ -134,10 +134,14 @@ struct Solver {
       ++clamped;
     }
   }
-  void load_motion(JointBody& body) {
-    const BodyMotion& motion = bodies.motions[body.slot];
-    body.linear_velocity = motion.linear_velocity;
-    body.angular_velocity = angular_velocity_from(body, motion.angular_momentum);
+  /// Sets the velocities of the mobile bodies, from which the rows' speeds are computed. They include impulses without
+  /// a row that have not been applied yet.
+  DETENT_SHARED void load_motions() {
+    each_mobile([&](JointBody& body) {
+      const BodyMotion& motion = bodies.motions[body.slot];
+      body.linear_velocity = motion.linear_velocity + body.given_push;
+      body.angular_velocity = angular_velocity_from(body, motion.angular_momentum + body.given_twist);
+    });
   }
 
   /// Whether the body's rotation in the tick has changed its inverse inertia.
@@ -172,7 +176,7 @@ struct Solver {
 
   /// Reads the bodies' velocities, and chooses the drive modes of the free motions.
   void start() {
-    each_mobile([&](JointBody& body) { load_motion(body); });
+    load_motions();
     each_joint([&](JointWork& work) {
       for (Real& total : work.total) total = k_zero;
       for (uint32_t k = 0; k < work.locked_rows; ++k) work.spring[k] = work.target[k] = k_zero;
@@ -270,11 +274,7 @@ struct Solver {
   /// Solves the rows, repeatedly until the drive modes of all limits, motors and friction agree with the impulses.
   void solve() {
     for (uint32_t decision = 1;; ++decision) {
-      each_mobile([&](JointBody& body) {
-        const BodyMotion& motion = bodies.motions[body.slot];
-        body.linear_velocity = motion.linear_velocity + body.given_push;
-        body.angular_velocity = angular_velocity_from(body, motion.angular_momentum + body.given_twist);
-      });
+      load_motions();
       const uint32_t lessened = solve_for([&] { ask_for_speeds(); });
       bool wrong = false;
       const bool last = decision == k_decisions;
@@ -377,16 +377,14 @@ struct Solver {
   /// energy.
   void keep_sound() {
     if (is_sound()) return;
-    EnergySum shared, own;
-    each_mobile([&](JointBody& body) { load_motion(body); });
-    each_joint([&](const JointWork& work) { add_product(work, work.rows, shared); });
+    load_motions();
+    const Scaled shared = impulses_times_speeds(false);
     each_mobile([&](JointBody& body) {
       body.linear_velocity = body.push;
       body.angular_velocity = angular_velocity_from(body, body.twist);
     });
     place_motionless();
-    each_joint([&](const JointWork& work) { add_product(work, work.rows, own); });
-    scale_all(share_within(own.value(), shared.value(), Scaled(0.0)));
+    scale_all(share_within(impulses_times_speeds(false), shared, Scaled(0.0)));
     place_still(elapsed);
   }
 
@@ -486,40 +484,38 @@ struct Solver {
   /// Adds the velocities by which the joints follow their curved paths. With the impulses x that give these velocities,
   /// the projection has removed at least the energy that the best multiple of x would have removed from the motion u at
   /// the start of the substep: (x . J u)^2 / (x . K x) is twice this energy. The velocities are scaled so that they add
-  /// no more. Range: load_motion() has been called for the bodies.
+  /// no more. Range: load_motions() has been called.
   void follow_curves() {
     clamped += solve_for([&] { ask_for_curves(); });
-    EnergySum shared, opposed;
-    each_joint([&](const JointWork& work) { add_product(work, work.rows, shared); });
+    const Scaled shared = impulses_times_speeds(false);
     each_mobile([&](JointBody& body) {
       body.linear_velocity = body.velocity_before;
       body.angular_velocity = angular_velocity_from(body, body.angular_momentum_before);
     });
-    each_joint([&](const JointWork& work) { add_locked_product(work, opposed); });
-    scale_all(is_sound() ? share_within(own_energy, shared.value(), opposed.value()) : Scaled(0.0));
+    const Scaled opposed = impulses_times_speeds(true);
+    scale_all(is_sound() ? share_within(own_energy, shared, opposed) : Scaled(0.0));
     each_mobile([&](JointBody& body) { apply(body); });
     each_joint([&](JointWork& work) { count_in(work); });
   }
 
-  /// Adds the product of a joint's impulses and the speeds of its rows, at the bodies' current velocities.
-  void add_product(const JointWork& work, uint32_t rows, EnergySum& sum) const {
-    Real speed[k_joint_rows_max];
-    speeds(work, speed);
-    for (uint32_t k = 0; k < rows; ++k) sum.add(work.impulse[k], scale_by_power(speed[k], power_of(work, k)));
-  }
-  /// The same for the rows that lock motions.
-  void add_locked_product(const JointWork& work, EnergySum& sum) const {
-    Real speed[k_joint_rows_max];
-    speeds(work, speed);
-    for (uint32_t k = 0; k < work.rows; ++k) {
-      if (is_locked(work, k)) sum.add(work.impulse[k], scale_by_power(speed[k], power_of(work, k)));
-    }
+  /// The product x . J v of the impulses and the rows' speeds at the bodies' current velocities. If `locked`, over the
+  /// rows that lock motions.
+  DETENT_SHARED Scaled impulses_times_speeds(bool locked) {
+    EnergySum sum;
+    each_joint([&](const JointWork& work) {
+      Real speed[k_joint_rows_max];
+      speeds(work, speed);
+      for (uint32_t k = 0; k < work.rows; ++k) {
+        if (!locked || is_locked(work, k)) sum.add(work.impulse[k], scale_by_power(speed[k], power_of(work, k)));
+      }
+    });
+    return sum.value();
   }
 
   /// The largest y in [0, 1] for which y times the impulses x add at most the energy of `opposed`: y^2 own + 2 y shared
   /// <= opposed^2 / own. `own`: twice the energy of the impulses, x . K x. `shared`, `opposed`: their products x . J v
   /// with the current motion, and with the motion that has been projected.
-  static Scaled share_within(Scaled own, Scaled shared, Scaled opposed) {
+  DETENT_SHARED static Scaled share_within(Scaled own, Scaled shared, Scaled opposed) {
     const Scaled one = 1.0;
     const Scaled root = square_root(add(multiply(shared, shared), multiply(opposed, opposed)));
     const Scaled most = add(root, negate(shared));
@@ -635,9 +631,8 @@ struct Solver {
     });
   }
 
-  /// Adds the impulses of a joint to its sums of force and torque.
-  static void add_up(JointWork& work) {
-    work.force_sum += linear_impulse(work);
+  /// Adds the angular impulses of a joint to its sum of torques.
+  static void add_torques(JointWork& work) {
     for (uint32_t k = first_other(work); k < work.locked_rows; ++k) add_torque(work, work.row[k], work.total[k]);
     for (int i = 0; i < k_free_motions; ++i) {
       const Real impulse = work.driven_total[i] + work.given[i];
@@ -657,8 +652,8 @@ struct Solver {
   }
   /// Adds the motion along curved paths, and computes the shifts that close gaps.
   void follow() {
-    each_joint([&](JointWork& work) { work.pull = pull_of(work); });
-    each_mobile([&](JointBody& body) { load_motion(body); });
+    each_joint([&](JointWork& work) { work.pull = pull_of(work, linear_impulse(work)); });
+    load_motions();
     if (any_turns()) follow_curves();
     close_gaps();
     if (touches) renew_angular_velocities();
@@ -668,10 +663,12 @@ struct Solver {
   void end() {
     if (touches) solve_again();
     each_joint([&](JointWork& work) {
-      add_up(work);
+      const Vec3<Real> impulse = linear_impulse(work);
+      work.force_sum += impulse;
+      add_torques(work);
       // The limit is necessary because curved paths give redundant rows contradictory targets. These rows then pull
       // against each other as hard as their softness permits.
-      work.pull = min(pull_of(work), scale_by_power(work.pull, 1));
+      work.pull = min(pull_of(work, impulse), scale_by_power(work.pull, 1));
     });
     restore_inertias();
   }

@@ -30,7 +30,8 @@ constexpr int k_axes_power = 2;
 constexpr Scaled k_needed_by_bend_max = 1024.0;
 /// Squared substeps per squared radian of a spring's phase in a tick.
 constexpr Scaled k_needed_by_spring = 25.0;
-/// Limit for springs; stiffer springs are solved implicitly.
+/// Limit of the squared number of substeps that a spring requests. Whether a spring is solved explicitly or implicitly is
+/// decided in joint_rows.cpp.
 constexpr Scaled k_needed_by_spring_max = 16.0;
 
 Scaled greater(Scaled a, Scaled b) { return less(a, b) ? b : a; }

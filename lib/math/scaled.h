@@ -83,7 +83,8 @@ inline Real multiply(Real a, Scaled b) {
   const Int128 product = Int128::product(a.raw, b.mantissa);
   const int n = -b.exponent;
   if (n > 0 && n <= 64) return Real::from_raw(product.round_shift(n));
-  // The product is below 2^95; only 0 has an exponent of 0 here.
+  // Two cases give 0: b = 0, the only b in range whose exponent is not negative; and n > 120, because the product is
+  // below 2^95.
   return n <= 0 || n > 120 ? Real(0.0) : Real::from_raw(product.round_shift(n));
 }
 #else

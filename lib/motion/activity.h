@@ -27,7 +27,7 @@ uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities, BitSet acti
 /// Counts the ticks that each body has been at rest. Puts an island to sleep, and sets its velocities to zero, if all
 /// its bodies have been at rest for k_still_ticks. Returns the number of bodies that fell asleep.
 ///
-/// A body is at rest if no point of its surface is faster than 1/32 of the speed of a fall by its smallest diameter.
+/// A body is at rest if no point of its surface is faster than 1/32 of fall_speed() of its smallest diameter.
 /// Both its velocity and its displacement in this tick, divided by the tick, must satisfy this. The displacement is
 /// tested because position corrections of contacts and joints move a body without a velocity.
 uint32_t fall_asleep(const StepSettings& settings, Span<const BodyProperties> properties, Span<const BodyPose> poses,

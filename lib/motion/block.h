@@ -50,20 +50,20 @@ DETENT_SHARED inline Factor held(Ulps a) {
 
 class Block {
  public:
-  /// Includes `v` 2^exponent, as mantissas, in the choice of the block by settle(). Range: exponent from 0 to
+  /// Makes settle() choose a block in which the components of `v` 2^exponent fit as mantissas. Range: exponent from 0 to
   /// k_angular_velocity_power.
   DETENT_SHARED void include(const Vec3<Real>& v, int exponent) {
     bits_ |= (magnitude_64(v.x.raw) | magnitude_64(v.y.raw) | magnitude_64(v.z.raw)) >>
              (k_angular_velocity_power - exponent);
   }
-  /// Includes the first `used` values, as numbers, in the choice of the block by settle().
+  /// Makes settle() choose a block in which the first `used` values fit as numbers.
   DETENT_SHARED void include(const Real* values, uint32_t used) {
     uint64_t all = 0;
     for (uint32_t i = 0; i < used; ++i) all |= magnitude_64(values[i].raw);
     bits_ |= all >> k_number_drop;
   }
-  /// Includes the lesser of the speeds `speed` 2^exponent, in block `from`, and `most`, as a number. To be called
-  /// before settle(). Range: both speeds >= 0.
+  /// Makes settle() choose a block in which a speed fits as a number: the lesser of `speed` 2^exponent, in block `from`,
+  /// and `most`. Range: both speeds >= 0.
   void include_speed(Factor speed, const Block& from, int exponent, Real most) {
     if (speed == 0) return;
     const int bits = bit_length_64(static_cast<uint64_t>(speed)) + from.shift_ + exponent;

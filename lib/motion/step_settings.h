@@ -85,7 +85,8 @@ inline Real speed_over(const StepSettings& settings, Real length) {
   return scale_by_power(clamp(length, -settings.gap_max, settings.gap_max) * settings.rate_mantissa,
                         settings.rate_exponent);
 }
-/// The speed, m/s, after a fall from rest by `extent`, m. Used to derive limits of speeds. Range: extent <= 2^15 m.
+/// sqrt(g extent), m/s, with g at least 1 m/s^2: the speed after a fall from rest by half of `extent`, m. Limits of speeds
+/// are multiples of it. Range: extent <= 2^15 m.
 Real fall_speed(const StepSettings& settings, Real extent);
 /// Sets the settings that depend on the number of substeps, and on whether the island has joints. Range: [1, 64].
 void set_substeps(uint32_t substeps, bool jointed, StepSettings& settings);

@@ -53,8 +53,9 @@ uint64_t& RollbackSession::stamp_of(uint32_t player, uint64_t tick) const {
   return stamps_[place(tick) * def_.players + player];
 }
 
-/// The first tick whose inputs another machine may still need. A session without local players may have inputs for more
-/// ticks than it has made.
+/// The first tick whose inputs another machine may still need: two windows before the present tick, or before the first
+/// tick with an unknown input if that is earlier. With a delay, or without local players, inputs may be known for ticks
+/// that are not simulated yet.
 uint64_t RollbackSession::oldest() const {
   const uint64_t known = known_tick(), back = 2 * uint64_t{def_.window};
   const uint64_t now = known < tick_ ? known : tick_;

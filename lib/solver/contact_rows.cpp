@@ -328,7 +328,7 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
     if (i >= work.angular_rows) continue;
     work.angular_impulse[i] = dot(work.state.angular_impulse, *axes[i]);
   }
-  // Limits of speeds are multiples of the speed of a fall by the smaller body's extent.
+  // Limits of speeds are multiples of fall_speed() of the smaller body's extent.
   const Real fall = min(a.fall, b.fall);
   work.push_max = scale_by_power(fall, -1);
   work.rebound_min = settings.restitution_threshold * fall;

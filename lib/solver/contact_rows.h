@@ -10,8 +10,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// One body of a contact, as input for the rows. Its inverse inertia and its angular velocity, in units of
-/// 2^-k_angular_velocity_power m/s, are in world axes. `extent`: its smallest diameter, m. `fall`: the speed, m/s, that
-/// a fall by `extent` adds.
+/// 2^-k_angular_velocity_power m/s, are in world axes. `extent`: its smallest diameter, m. `fall`: fall_speed() of
+/// `extent`, m/s.
 struct RowBody {
   const BodyProperties& properties;
   const BodyPose& pose;

@@ -10,6 +10,7 @@
 #include "describe.h"
 #include "engine.h"
 #include "file.h"
+#include "json_line.h"
 #include "read_heights.h"
 #include "read_mesh.h"
 #include "read_points.h"
@@ -21,14 +22,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A path need not be valid UTF-8: invalid bytes are replaced.
-void print_cooked(const Json& json) {
-  printf("%s\n", json.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
-}
-
 bool fail(const std::string& path, const std::string& problem, bool json) {
   if (json) {
-    print_cooked({{"file", path}, {"ok", false}, {"problem", problem}});
+    print_json_line({{"file", path}, {"ok", false}, {"problem", problem}});
   } else {
     fprintf(stderr, "%s: %s\n", printable(path).c_str(), printable(problem).c_str());
   }
@@ -126,7 +122,7 @@ Json json_of(const std::string& path, const detent_cook::CompoundDescription& co
 
 void say(const std::string& path, const detent_cook::CompoundDescription& compound, bool json) {
   if (json) {
-    print_cooked(json_of(path, compound));
+    print_json_line(json_of(path, compound));
     return;
   }
   printf("%s: %u parts, %u of them hulls, radius %.6g m, thinnest %.6g m, volume %.6g m^3, ", printable(path).c_str(),
@@ -182,7 +178,7 @@ bool cook_mesh_file(const MeshRequest& request, bool json, const detent_cook::Co
     object["repeated"] = result.repeated;
     object["forked"] = result.forked_edges;
     object["bytes"] = result.bytes.size();
-    print_cooked(object);
+    print_json_line(object);
     return true;
   }
   print_text(request.output, terrain);
@@ -208,7 +204,7 @@ bool cook_height_field_file(const HeightFieldRequest& request, bool json) {
     Json object = json_of(request.output, terrain);
     object["height_step"] = result.height_step;
     object["bytes"] = result.bytes.size();
-    print_cooked(object);
+    print_json_line(object);
     return true;
   }
   print_text(request.output, terrain);
@@ -222,7 +218,7 @@ bool describe_terrain_file(const std::string& path, bool json) {
   const detent_cook::TerrainDescription terrain = detent_cook::describe_terrain(bytes);
   if (!terrain.problem.empty()) return fail(path, terrain.problem, json);
   if (json) {
-    print_cooked(json_of(path, terrain));
+    print_json_line(json_of(path, terrain));
   } else {
     print_text(path, terrain);
     printf("\n");
@@ -248,7 +244,7 @@ bool cook_file(const CookRequest& request, bool json) {
     object["reduced"] = result.reduced;
     object["error"] = result.error;
     object["bytes"] = result.bytes.size();
-    print_cooked(object);
+    print_json_line(object);
     return true;
   }
   print_text(request.output, hull);
@@ -266,7 +262,7 @@ bool describe_hull_file(const std::string& path, bool json) {
   const detent_cook::HullDescription hull = detent_cook::describe_hull(bytes);
   if (!hull.problem.empty()) return fail(path, hull.problem, json);
   if (json) {
-    print_cooked(json_of(path, hull));
+    print_json_line(json_of(path, hull));
   } else {
     print_text(path, hull);
     printf("\n");

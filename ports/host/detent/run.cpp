@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "file.h"
+#include "json_line.h"
 #include "progress.h"
 #include "text.h"
 
@@ -11,8 +12,6 @@ namespace detent_tool {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-void print_line(const Json& json) { printf("%s\n", json.dump(-1, ' ', false, Json::error_handler_t::replace).c_str()); }
 
 std::string plain(double value) {
   char text[32];
@@ -43,7 +42,7 @@ void print_object(const RunLine& line) {
       json[value.name] = value.numbers.front();
     }
   }
-  print_line(json);
+  print_json_line(json);
 }
 
 bool refuse(const RunCommand& command, const std::vector<Problem>& problems) {
@@ -52,7 +51,7 @@ bool refuse(const RunCommand& command, const std::vector<Problem>& problems) {
     for (const Problem& problem : problems) {
       list.push_back({{"line", problem.line}, {"path", problem.path}, {"problem", problem.text}});
     }
-    print_line({{"file", command.path}, {"ok", false}, {"problems", list}});
+    print_json_line({{"file", command.path}, {"ok", false}, {"problems", list}});
   } else {
     for (const Problem& problem : problems) fprintf(stderr, "%s\n", problem_text(command.path, problem).c_str());
   }
@@ -83,7 +82,7 @@ void summarise(const RunCommand& command, const RunOutcome& outcome) {
     }
     json["digest"] = hexadecimal(outcome.digest);
     json["seconds"] = outcome.seconds;
-    return print_line(json);
+    return print_json_line(json);
   }
   for (size_t i = 0; i < outcome.assets.size(); ++i) {
     printf("asset %zu: %s, digest %s\n", i, printable(outcome.assets[i]).c_str(), outcome.asset_digests[i].c_str());
