@@ -56,7 +56,7 @@ struct FilterBody {
 
 /// Returns whether `own`, the body that has the rule, can collide with `other`. The result must depend only on the
 /// arguments, because the library may call the rule at any time. For the same arguments it must be the same on every
-/// machine that simulates the world. In a step with WorldHooks::tasks one of its threads calls the rules, one by one.
+/// machine that simulates the world. A step calls the rules one at a time, also with WorldHooks::tasks.
 using FilterRule = bool (*)(const FilterBody& own, const FilterBody& other);
 
 /// The filter rules of a world. Rule n is rules[n - 1]. The caller chooses the order, which must be the same on every
@@ -82,9 +82,11 @@ enum class RestitutionRule : uint32_t {
 /// Surface properties. A pair uses the geometric mean of the two frictions, the larger rolling resistance, and the
 /// larger restitution unless one of the materials has RestitutionRule::smaller.
 struct Material {
-  Real friction = Real(0.6);      ///< Coulomb's coefficient, [0, 16]
-  Real restitution = 0.0;         ///< rebound speed over approach speed, [0, 1]
-  Real rolling_resistance = 0.0;  ///< torque over (normal force x smaller radius), about any axis, [0, 16]
+  Real friction = Real(0.6);  ///< Coulomb's coefficient, [0, 16]
+  Real restitution = 0.0;     ///< rebound speed over approach speed, [0, 1]
+  /// Torque over (normal force x half the pair's smaller extent), about any axis, [0, 16]. Half the extent of a ball is
+  /// its radius (WorldDef).
+  Real rolling_resistance = 0.0;
   /// The pair uses the smaller restitution if either material has the rule `smaller`.
   RestitutionRule restitution_rule = RestitutionRule::larger;
 };
@@ -128,7 +130,7 @@ struct BodyDef {
 };
 
 /// A definition that creates the same body with its current pose and velocity. An inertia set by set_inertia() is not
-/// part of it. The numbers are as the state stores them. Their rounding error is less than 2^-30 of their size. For a
+/// part of it. The numbers are as the state stores them: rounded by less than 2^-30 of their magnitude. For a
 /// non-dynamic body that never had a mass, `mass` is 0.
 Status get_body_def(const World& world, BodyId id, BodyDef& def);
 /// BodyDef::type.
@@ -183,8 +185,9 @@ Status set_gravity_scale(World& world, BodyId id, Real scale);
 /// BodyDef::rotation_locks. The angular velocity about the other axes stays. An inertia set by set_inertia() is
 /// replaced by that of the shape. Errors: bad_argument (other bits than those of k_rotation_locks_all).
 Status set_rotation_locks(World& world, BodyId id, uint32_t locks);
-/// BodyDef::sensor. If the value changes, the body's contacts end at once, and the body leaves its sensors, or the
-/// bodies within it leave it, without leave events. Errors: pool_full (Capacity::sensed is 0), feature_missing.
+/// BodyDef::sensor. If the value changes, the body's contacts end at once. A body that becomes a sensor leaves the
+/// sensors that it is within; if a sensor becomes an ordinary body, the bodies within it leave it. Neither causes leave
+/// events. Errors: pool_full (Capacity::sensed is 0), feature_missing.
 Status set_sensor(World& world, BodyId id, bool sensor);
 
 /// Adds a force, N, world frame, that acts during the next step at the point `arm` from the centre of mass. `arm`: m,
@@ -202,10 +205,11 @@ Status apply_impulse_at_point(World& world, BodyId id, const Vec3<Scaled>& impul
 struct Explosion {
   Position centre = {0.0, 0.0, 0.0};  ///< m, world
   Real radius = 10.0;                 ///< m, [2^-14, 2^14]; the impulse decreases to 0 at this distance
-  Scaled impulse = 100.0;             ///< N s per m^2 of a body's cross section, at the centre; negative: pulls
+  /// N s per m^2 of a body's cross section, for a body at the centre; negative: pulls bodies towards the centre.
+  Scaled impulse = 100.0;
 };
 /// Applies an impulse at once to each dynamic body with d < radius, in slot order. The impulse acts at the centre of
-/// mass and points away from the centre of the explosion. Its size is
+/// mass and points away from the centre of the explosion. Its magnitude is
 ///
 ///     impulse x pi b^2 x (1 - d / radius),   d = max(distance of the centres - b, 0),
 ///

@@ -18,8 +18,9 @@ inline namespace DETENT_NAMESPACE {
 enum class ManifoldReduction : uint32_t {
   /// The extreme points along four diagonals of the contact plane. The selection ignores depth, so that small changes
   /// of depth do not change the selected points. If the deepest point is deeper than all selected points by more than
-  /// 2^-10 of the smaller body's size, it is added, or it replaces the nearest of four. If a point is extreme along
-  /// several diagonals, the remaining places take the points that add most to the area of the manifold.
+  /// 2^-10 of the smaller core's bounding radius, it is added; if there are four already, it replaces the nearest. If a
+  /// point is extreme along several diagonals, the remaining places take the points that add most to the area of the
+  /// manifold.
   /// Source: the extremes of Moravanszky, Terdiman, "Fast Contact Reduction for Dynamics Simulation", 2004.
   projected_extremes = 1,
   /// The deepest point, the point farthest from it, the point that makes the largest triangle with both, and the point
@@ -60,12 +61,13 @@ struct ContactManifold {
 /// - The cores overlap or nearly touch at crossing edges, the face normal is within 2^-3 rad of the axis and separates
 ///   the cores as well as the axis, to within h / 16, and the points on the face are at most h / 64 deeper.
 ///
-/// Faces of a hull that are coplanar to within 1/64 of its half thickness count as one face; its normal is that of
-/// their outline.
+/// Faces of a hull that are coplanar to within 1/64 of the hull's half thickness count as one face, with the normal of
+/// their common outline.
 ///
 /// The points are corners of the contact area: the intersection of the two supporting faces or edges, projected along
-/// the normal. The contact area may extend beyond the sides of a face by 1/64 of the size of the smaller face.
-/// `reduction` selects four points if there are more. A face of more than 32 vertices is represented by 32 extreme
+/// the normal. The contact area may extend beyond the sides of a face by 1/64 of the smaller of two lengths: the least
+/// distance of a side from the face's middle, and the bounding radius of the other core. `reduction` selects four
+/// points if there are more. A face of more than 32 vertices is represented by 32 extreme
 /// vertices. The flat side of a cylinder or cone is represented by 8 points of its rim and the deepest point.
 ///
 /// Precision: as closest_points(). Errors: bad_argument for two half-spaces; not_normalised; out_of_range for
@@ -94,7 +96,7 @@ struct Contact {
   Vec3<Unit> normal = {};      ///< from A to B, world; zero if there is no point
   uint32_t part = 0;           ///< 0 if both bodies are convex; else a key, distinct for each contact of the pair
   bool touching = false;       ///< the bodies pushed each other in the last step
-  uint32_t age = 0;            ///< ticks in contact before the last one, at most 65535
+  uint32_t age = 0;            ///< ticks for which the contact existed before the last tick, at most 65535
   uint32_t point_count = 0;    ///< number of points, at most 4
   ContactPoint point[4] = {};  ///< the first `point_count` are in use
   Vec3<Scaled> friction_impulse = {};  ///< on B, N s, world, over the last tick

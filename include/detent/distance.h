@@ -69,8 +69,8 @@ struct Closest {
 /// Computes the distance of two convex shapes and their closest points.
 /// Precision: k_distance_error of the pair's extent (the core diameters plus the distance of the centres).
 /// Range: any poses; a distance beyond 2^17 m saturates.
-/// Errors: bad_argument for two half-spaces; not_normalised; out_of_range for NaN, and for a half-space whose position
-/// is 2^16 m or more from that of the other shape in a component.
+/// Errors: bad_argument for two half-spaces; not_normalised; out_of_range for NaN, and with a half-space if the two
+/// positions are 2^16 m or more apart in a component.
 Status closest_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Closest& result,
                       DistanceCache* cache = nullptr);
 

@@ -31,10 +31,11 @@ struct DebugDraw {
 
 /// The objects that draw() draws. Combine with |.
 enum class DrawFlags : uint32_t {
-  none = 0,        ///< nothing
-  bodies = 1,      ///< calls `solid` for each body; if `solid` is null: the triangle edges of terrains, by `line`
-  bounds = 2,      ///< the twelve edges of each body's axis-aligned bounds, except for half-spaces
-  contacts = 4,    ///< each contact point, and a line along its normal, as long as a quarter of the smaller body
+  none = 0,    ///< nothing
+  bodies = 1,  ///< calls `solid` for each body; if `solid` is null: the triangle edges of terrains, by `line`
+  bounds = 2,  ///< the twelve edges of each body's axis-aligned bounds, except for half-spaces
+  /// Each contact point, and a line along its normal, as long as a quarter of the pair's smaller extent (WorldDef).
+  contacts = 4,
   velocities = 8,  ///< a line from the centre of each moving body to its place after 0.1 s at the current velocity
   all = 15,        ///< everything
 };

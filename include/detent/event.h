@@ -25,8 +25,8 @@ struct ContactEvent {
   BodyId a;                                         ///< the body with the lower slot
   BodyId b;                                         ///< the body with the higher slot
   Vec3<Unit> normal = {};                           ///< from A to B, world; zero for an end
-  Position point = {};                              ///< the middle of the contact, m, world; zero for an end
-  Real approach_speed = {};                         ///< for a hit: closing speed of the surfaces, m/s; else 0
+  Position point = {};       ///< the middle of the contact points or the point of impact, m, world; zero for an end
+  Real approach_speed = {};  ///< for a hit: closing speed of the surfaces, m/s; else 0
 };
 
 /// The buffer to which a step writes its contact events, in the order of (a.slot, b.slot, type); several hits of a pair
@@ -82,8 +82,8 @@ enum class CapacityEventType : uint32_t {
   sensed = 3,   ///< the sensor `a` does not report the body `b` within it; the limit is Capacity::sensed
 };
 
-/// A pair, contact or sensed body that a step dropped because a pool was full. It is missing in this step only. The
-/// report counts all dropped entries.
+/// A pair, contact or sensed body that a step dropped because a pool was full. The entry is missing in this step only.
+/// The report counts all dropped entries.
 struct CapacityEvent {
   CapacityEventType type = CapacityEventType::contact;  ///< which pool was full
   BodyId a;                                             ///< the body with the lower slot; or the sensor

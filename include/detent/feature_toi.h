@@ -28,18 +28,19 @@ inline constexpr uint32_t k_feature_intervals_max = 1024;
 /// Finds when two features first meet if their corners move in straight lines, from `start` to `end`, at constant
 /// velocity. Touching counts as meeting. The features may be degenerate.
 /// Corners: m, in one common frame; each component within 2^14.
-/// Tolerance: k_feature_tolerance of the larger of the sizes at the start and at the end, and 2^-41 m.
+/// Tolerance: k_feature_tolerance times the larger of the sizes at the start and at the end, plus 2^-41 m.
 /// Errors: bad_argument for another kind; out_of_range.
 Status feature_toi_linear(FeatureKind kind, const Vec3<Real> (&start)[4], const Vec3<Real> (&end)[4],
                           FeatureToi& result);
 
 /// Finds when two features first meet if each is fixed to a body with constant velocity and constant angular velocity.
-/// Touching counts as meeting. The features may be degenerate. A step with many revolutions may be `undecided`.
+/// Touching counts as meeting. The features may be degenerate. The outcome may be `undecided` if a body makes many
+/// revolutions in the step.
 /// Corners: m, in the axes of their body and relative to its position; each component within 2^14.
-/// Tolerance: k_feature_tolerance of the size; 2^-23 of the sum of the largest distance of A's corners from A's
-/// position and that of B's corners from B's position; and 2^-41 m. Errors: bad_argument for another kind;
-/// not_normalised; out_of_range, also if a component of the displacements, or of the initial distance of the positions,
-/// is more than 2^14 m, or a rotation is more than 2^16 rad.
+/// Tolerance: the sum of three lengths: k_feature_tolerance times the size; 2^-23 times the sum of the largest distance
+/// of A's corners from A's position and that of B's corners from B's position; 2^-41 m. Errors: bad_argument for
+/// another kind; not_normalised; out_of_range, also if a component of the displacements, or of the initial distance of
+/// the positions, is more than 2^14 m, or a rotation is more than 2^16 rad.
 Status feature_toi(FeatureKind kind, const Vec3<Real> (&corner)[4], const Motion& motion_a, const Motion& motion_b,
                    FeatureToi& result);
 
@@ -55,12 +56,12 @@ struct PosePair {
 /// Therefore the coplanarity of the features is a cubic polynomial in time divided by a quadratic that has no real
 /// roots.
 /// Touching counts as meeting. The features may be degenerate.
-/// Corners: m, in the axes of their body and relative to its position; each component within 2^10, and the same for B's
-/// position relative to A's.
-/// Tolerance: k_feature_tolerance of the size; 2^-21 of the sum of the largest distance of B's corners from B's
-/// position and the distance of the positions of A and B; and 2^-39 m. Errors: bad_argument for another kind;
-/// not_normalised; out_of_range, also if B rotates in A's frame by more than 2.65 rad (the tangent of half the angle is
-/// at most 4).
+/// Corners: m, in the axes of their body and relative to its position; each component within 2^10. B's position
+/// relative to A's: each component within 2^10 m.
+/// Tolerance: the sum of three lengths: k_feature_tolerance times the size; 2^-21 times the sum of the largest distance
+/// of B's corners from B's position and the distance of the positions of A and B; 2^-39 m. Errors: bad_argument for
+/// another kind; not_normalised; out_of_range, also if B rotates in A's frame by more than 2.65 rad (the tangent of
+/// half the angle is at most 4).
 Status feature_toi_screw(FeatureKind kind, const Vec3<Real> (&corner)[4], const PosePair& a, const PosePair& b,
                          FeatureToi& result);
 

@@ -25,8 +25,8 @@ enum class JointType : uint32_t {
 };
 inline constexpr JointType k_joint_type_last = JointType::filter;  ///< the largest value of a joint type
 
-/// The limits, spring and motor of one free motion of a joint. Its value x is an angle, rad, in (-pi, pi), or a length,
-/// m. A limit overrides a spring or motor that pushes x beyond it.
+/// The limits, spring and motor of one free motion of a joint. The value x of the motion is an angle, rad, between -pi
+/// and pi, or a length, m. A limit overrides a spring or motor that pushes x beyond the limit.
 struct JointAxis {
   bool limited = false;  ///< whether the limits act
   Real lower = 0.0;      ///< rad or m, lower <= x; a length is within +-16384

@@ -80,15 +80,15 @@ struct MoverReport {
 ///    it.
 ///  - Then the horizontal part of the displacement is applied. Over floors, sloped ones too, the horizontal distance
 ///    that the mover covers is the full length of this part. Along walls, it slides; a wall is any surface steeper than
-///    a floor. If a wall stops a mover that stood on the ground, it steps up, provided that the step ends on a floor.
+///    a floor. If a wall stops a mover that stood on the ground, the mover steps up, if the step ends on a floor.
 ///  - Then the part along up is applied. A mover that stood on the ground and does not rise moves down to a floor
 ///    within `snap`; if there is none, it falls.
 ///
-/// A floor is a surface whose normal is within the slope limit of up, or an edge of such a surface.
-/// Every motion is a cast of the capsule, shrunk to the radius at which it overlaps nothing at the start. Therefore a
-/// mover does not pass through a body at any speed. An undecided hit stops the mover, and is counted. Precision: that
-/// of the queries, and one step of a position for each motion. Errors: out_of_range, not_normalised, feature_missing
-/// (capsules); then nothing changes.
+/// A floor is a surface whose slope is at most that of MoverSettings::slope_cosine, or an edge of such a surface.
+/// For every motion the capsule is cast. If it overlaps bodies at the start, a thinner capsule that overlaps none is
+/// cast instead. Therefore a mover does not pass through a body at any speed. An undecided hit stops the mover, and is
+/// counted. Precision: that of the queries, plus the resolution of a position for each motion. Errors: out_of_range,
+/// not_normalised, feature_missing (capsules); after an error nothing has changed.
 Status move_mover(const World& world, const MoverSettings& settings, const Vec3<Real>& displacement, Mover& mover,
                   MoverReport& report);
 

@@ -4,11 +4,12 @@
 #include <detent/status.h>
 
 /// @file
-/// Numbers: fixed point, the number types by their use, vectors, rotations and poses; their conversions from and to the
-/// host; transforms between the axes of a body and of the world; poses for rendering. No world is needed.
+/// Numbers: fixed point, the number roles, vectors, rotations and poses; their conversions from and to the host;
+/// transforms between the axes of a body and of the world; poses for rendering. No world is needed.
 ///
-/// All code above lib/math uses the names of the number types by their use, and is compiled once per configuration.
-/// Ranges, resolutions and their derivation: SPEC.md, "Numbers".
+/// A *role* (Coord, Real, Unit, Scaled) is a kind of quantity; each configuration represents it by a type of its own.
+/// All code above lib/math uses the roles, and is compiled once per configuration. Ranges, resolutions and their
+/// derivation: SPEC.md, "Numbers".
 ///
 /// The from_host and to_host functions are the only conversions between the host's doubles and the library's numbers.
 /// They read and write the bits of the double, so the caller's rounding mode, flush-to-zero and -ffast-math have no
@@ -30,7 +31,7 @@ constexpr FromDouble fixed_from_double_bits(uint64_t bits, int frac, int int_bit
   const bool negative = (bits >> 63) != 0;
   const int biased = static_cast<int>((bits >> 52) & 0x7ff);
   if (biased == 0x7ff) return {0, false};
-  if (biased == 0) return {0, true};  // zero and subnormals: below half a step of every format
+  if (biased == 0) return {0, true};  // zero and subnormals: below half the resolution of every format
   const uint64_t mantissa = (bits & 0xfffffffffffffu) | 0x10000000000000u;
   const int shift = biased - 1075 + frac;  // value 2^frac = mantissa 2^shift
   uint64_t magnitude = 0;
@@ -98,9 +99,9 @@ struct alignas(sizeof(Int)) Fixed {  // alignas: some targets align 8-byte membe
 };
 
 #if defined(DETENT_FX64)
-using Coord = Fixed<int64_t, 32>;  ///< a coordinate of a world position, m: +-2^31 m in steps of 2.3e-10 m
+using Coord = Fixed<int64_t, 32>;  ///< a coordinate of a world position, m: +-2^31 m, resolution 2.3e-10 m
 #elif defined(DETENT_FX32)
-using Coord = Fixed<int32_t, 16>;  ///< m: +-32 km in steps of 1.5e-5 m; the state also stores the remainder
+using Coord = Fixed<int32_t, 16>;  ///< m: +-32 km, resolution 1.5e-5 m; the state also stores the remainder
 #elif defined(DETENT_F32)
 using Coord = Fixed<int64_t, 32>;  ///< m: as in fx64
 #else
@@ -108,7 +109,7 @@ using Coord = double;  ///< m
 #endif
 
 #if DETENT_FIXED
-using Real = Fixed<int64_t, 46>;  ///< lengths, times, speeds, m, s, m/s: +-131 km/s in steps of 1.4e-14
+using Real = Fixed<int64_t, 46>;  ///< lengths, times, speeds, m, s, m/s: +-131 072, resolution 1.4e-14
 using Unit = Fixed<int32_t, 30>;  ///< dimensionless, in (-2, 2): rotations, normals, lengths relative to a power of two
 #elif defined(DETENT_F32)
 using Real = float;
@@ -228,7 +229,7 @@ double scaled_to_host(Scaled value);
 /// @}
 
 /// Transforms `point`, m, in the body's axes and relative to its centre of mass, to a position in the world. Rounding:
-/// to a step of a position. Overflow: clamped to the range of a position.
+/// to the resolution of a position. Overflow: clamped to the range of a position.
 Position to_world(const Pose& pose, const Vec3<Real>& point);
 /// Transforms a position in the world to a point, m, in the body's axes and relative to its centre of mass. Range:
 /// `point` is within 2^15 m of the body in each coordinate.

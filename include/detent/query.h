@@ -109,16 +109,17 @@ struct ClosestQuery {
 };
 
 /// Finds the bodies that the ray hits. A body that contains the origin is hit at fraction 0. No ray passes between two
-/// adjacent triangles of a terrain: hits on a terrain are exact to a step of its grid (docs/mesh.md). The hit is
-/// undecided if the ray begins 2^15 m or more from the terrain's origin.
+/// adjacent triangles of a terrain: hits on a terrain are exact to the resolution of its coordinates (docs/mesh.md).
+/// The hit is undecided if the ray begins 2^15 m or more from the terrain's origin.
 Status query_ray(const World& world, const RayQuery& query, QueryHits hits, QueryReport& report);
 /// Finds the bodies that the moving shape hits. Tolerance: as time_of_impact().
 Status query_cast(const World& world, const CastQuery& query, QueryHits hits, QueryReport& report);
 /// Finds the bodies that the shape overlaps or touches, in slot order. A body at distance 0 overlaps. Precision: as
 /// closest_points().
 Status query_overlap(const World& world, const OverlapQuery& query, QueryHits hits, QueryReport& report);
-/// Finds the bodies whose bounds overlap the box, in slot order. Precision: a body's bounds are exact to 2^-28 of its
-/// size and half a step of a coordinate.
+/// Finds the bodies whose bounds overlap the box, in slot order. Precision: the error of a body's bounds is at most
+/// 2^-28 of its unit of length, the least power of two, m, above its bounding radius, plus half the resolution of a
+/// position.
 Status query_bounds(const World& world, const BoundsQuery& query, QueryHits hits, QueryReport& report);
 /// Finds the bodies that are nearest to the shape, within the search distance. Precision: as closest_points().
 Status query_closest(const World& world, const ClosestQuery& query, QueryHits hits, QueryReport& report);
@@ -158,8 +159,8 @@ struct BodyTriangle {
   Position corner[3] = {};  ///< counter-clockwise from the front, m, world
 };
 
-/// Calls visit(user, triangle) for each triangle of the body, always in the same order. Rounding: to a step of a
-/// position. Errors: bad_id, bad_argument (the body's shape is no terrain), asset_missing.
+/// Calls visit(user, triangle) for each triangle of the body, always in the same order. Rounding: to the resolution of
+/// a position. Errors: bad_id, bad_argument (the body's shape is no terrain), asset_missing.
 Status visit_triangles(const World& world, BodyId id, void* user,
                        void (*visit)(void* user, const BodyTriangle& triangle));
 

@@ -214,7 +214,7 @@ class Recorder {
 
 /// The result of one tick of a replay.
 struct TickResult {
-  bool finished = false;   ///< the recording has ended: no tick was made; `digest` is that of the final state
+  bool finished = false;   ///< the recording has ended: no tick was simulated; `digest` is that of the final state
   bool compared = false;   ///< the recording has a digest of this tick; with a world, it equals the replayed one
   uint64_t tick = 0;       ///< ticks completed since the world was created
   uint64_t digest = 0;     ///< the recorded digest, if `compared`
@@ -281,12 +281,13 @@ class Player {
   /// after `open` begins at the seed.
   Status skip_tick(TickResult& result) { return advance(nullptr, result); }
   /// Sets the world to its state after `tick` completed ticks, before the calls of the next tick. The tick may be after
-  /// or before the current one. `open` must have been called, `start` need not. The player begins at the nearest of the
-  /// last keyframe at or before the tick, the seed, and the current state. From there it plays as next_tick does. With
-  /// a `seek`, a truncated recording can be played up to its last intact chunk. Errors: out_of_range (a tick outside
-  /// the recording, or, without a `seek`, an earlier tick), and those of start and next_tick. After out_of_range
-  /// nothing has changed, except that without a `seek` a tick beyond the end leaves the replay at the end. After other
-  /// errors the world is empty, or at the tick where the replay stopped.
+  /// or before the current one. `open` must have been called; `start` is not necessary. The player begins at the latest
+  /// of three states that is not after the tick: the last keyframe, the seed, the current state. From there it plays as
+  /// next_tick does. If the source can seek, a truncated recording can be played up to its last intact chunk. Errors:
+  /// out_of_range (a tick outside the recording, or an earlier tick if the source cannot seek), and those of start and
+  /// next_tick. After out_of_range nothing has changed, with one exception: if the source cannot seek and the tick is
+  /// beyond the end, the replay is at the end. After other errors the world is empty, or at the tick where the replay
+  /// stopped.
   Status go_to(World& world, uint64_t tick);
   /// The size of the intact part of the recording, bytes from its start. Valid after next_tick returned truncated, or
   /// corrupt because of a damaged chunk. The intact part, followed by the end that write_end() writes, is a recording

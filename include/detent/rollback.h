@@ -5,10 +5,10 @@
 /// World states for rollback: copies between worlds, differences of snapshots, and a ring of the states of the last
 /// ticks. Rollback sessions for a network game use these. No function of this header allocates.
 ///
-/// In a session each machine simulates with the inputs that have arrived. For a player whose input is missing, it
-/// predicts the last input again. When an input arrives that differs from its prediction, the machine repeats the ticks
-/// from there on. The session stores inputs and states; the game sends the inputs between machines. See
-/// docs/rollback.md.
+/// In a session each machine simulates with the inputs that have arrived. For a player whose input is missing, the
+/// machine predicts that the player's last input is repeated. When an input arrives that differs from its prediction,
+/// the machine repeats the ticks from the tick of this input on. The session stores inputs and states; the game sends
+/// the inputs between machines. See docs/rollback.md.
 ///
 /// Models: GGPO (Cannon 2019), for the inputs and for saving, loading and advancing a frame; ggrs, for the comparison
 /// of checksums, the sync test, and for accepting inputs and checksums while a session waits.
@@ -119,16 +119,16 @@ struct TickInputs {
   uint32_t players = 0;             ///< number of players
   uint32_t input_bytes = 0;         ///< bytes of each player's input
   uint32_t predicted = 0;           ///< bit p: the input of player p is a prediction, because it has not arrived
-  bool again = false;               ///< the tick was made before: the game must not repeat sounds and other effects
+  bool again = false;               ///< the tick is repeated: the game must not repeat sounds and other effects
   /// The input of one player.
   const uint8_t* of(uint32_t player) const { return inputs + player * input_bytes; }
 };
 
-/// The game's function that makes a tick: it applies the inputs to the world and steps the world once. Its results may
-/// depend on the world, the GameState and the inputs only, because a rollback restores nothing else. It must not call
-/// the session.
+/// The game's function that simulates a tick: it applies the inputs to the world and steps the world once. Its results
+/// may depend on the world, the GameState and the inputs only, because a rollback restores nothing else. It must not
+/// call the session.
 struct TickMaker {
-  /// Makes one tick.
+  /// Simulates one tick.
   void (*make)(void* context, World& world, const TickInputs& inputs) = nullptr;
   void* context = nullptr;  ///< passed to `make`
 };
@@ -143,7 +143,7 @@ struct RollbackDef {
   uint32_t checksum_interval = 1;  ///< a checksum is taken before every tick that is a multiple of it; 0: none
   uint32_t game_bytes = 0;         ///< GameState::count
   /// Sparse rollback: a tick that is repeated simulates only the bodies that the changed inputs reach. The results are
-  /// the same. Needs more than twice the memory (docs/rollback.md). Machines may differ in it.
+  /// the same. Needs more than twice the memory (docs/rollback.md). Machines may differ in this setting.
   bool sparse = false;
 };
 
@@ -151,7 +151,7 @@ struct RollbackDef {
 struct RollbackReport {
   uint64_t tick = 0;         ///< ticks that the world has completed
   uint32_t ticks_again = 0;  ///< ticks that were repeated
-  uint64_t went_back = 0;    ///< the first repeated tick
+  uint64_t went_back = 0;    ///< the first repeated tick; 0 if no tick was repeated
   /// Awake bodies simulated in the repeated ticks, summed over these ticks. 0 without RollbackDef::sparse.
   uint64_t bodies_again = 0;
   uint32_t ticks_whole = 0;  ///< repeated ticks in which all awake bodies were simulated
@@ -180,7 +180,7 @@ class SparseRollback;
 /// @endcond
 
 /// A rollback session. It starts at the tick that the world has at `begin`, and uses the tick numbers of the world.
-/// Every call is safe with untrusted data from a network: for invalid data it returns an error.
+/// Every call is safe with untrusted data from a network: it returns an error if the data are invalid.
 class RollbackSession {
  public:
   RollbackSession() = default;
@@ -209,17 +209,17 @@ class RollbackSession {
   /// not send earlier inputs again.
   uint64_t next_input(uint32_t player) const { return player < def_.players ? next_[player] : 0; }
 
-  /// Repeats the ticks that had wrong predictions, then makes one more tick.
-  /// Errors before anything changes: waiting (an input is missing, and `window` ticks were made without it: call again
-  /// when more inputs have arrived); bad_argument (not begun; a local player's input is missing; the world is not at
-  /// the session's tick); capacity_differs, feature_missing (not the world that the session began with).
+  /// Repeats the ticks from the first wrong prediction on, then simulates one more tick.
+  /// Errors before anything changes: waiting (an input is missing, and `window` ticks were simulated without it: call
+  /// again when more inputs have arrived); bad_argument (not begun; a local player's input is missing; the world is not
+  /// at the session's tick); capacity_differs, feature_missing (not the world that the session began with).
   /// Error afterwards: bad_argument if the maker did not step the world exactly once; this ends the session.
   Status advance(World& world, RollbackReport& report);
-  /// Repeats the ticks that had wrong predictions, and makes no further tick: for use while waiting, and after the last
-  /// tick. Errors: bad_argument, as advance.
+  /// Repeats the ticks from the first wrong prediction on, and simulates no further tick: for use while waiting, and
+  /// after the last tick. Errors: bad_argument, as advance.
   Status correct(World& world, RollbackReport& report);
 
-  /// Ticks that the session has made.
+  /// The number of ticks completed, by the world's tick numbers.
   uint64_t tick() const { return tick_; }
   /// The number of ticks whose inputs are all known and used. The state after these ticks is final.
   uint64_t confirmed_tick() const;
@@ -270,12 +270,12 @@ class RollbackSession {
   uint8_t* games_ = nullptr;                           ///< game states of the ticks in `states_`
   uint8_t* inputs_ = nullptr;                          ///< [tick][player]: the known or predicted input
   uint64_t* stamps_ = nullptr;                         ///< [tick][player]: tick + 1 if the input is known
-  Checksum* sums_ = nullptr;                           ///< [tick][machine]: this machine first, then each player
+  Checksum* sums_ = nullptr;                           ///< [tick][machine]: this machine's first, then each player's
   uint32_t kept_ = 0;                                  ///< number of ticks whose inputs and checksums are kept
   bool begun_ = false;
   uint64_t start_ = 0;           ///< the tick at `begin`
-  uint64_t tick_ = 0;            ///< ticks made
-  uint64_t wrong_ = UINT64_MAX;  ///< the first tick that was made with a wrong input
+  uint64_t tick_ = 0;            ///< ticks completed
+  uint64_t wrong_ = UINT64_MAX;  ///< the first tick that was simulated with a wrong input
   uint64_t next_[k_rollback_players_max] = {};
   Desync desync_ = {};
 };
@@ -322,8 +322,8 @@ constexpr SparseLayout sparse_layout(Capacity capacity, uint32_t window) {
   end = 0;
   place(k_sparse_control_bytes);
   layout.image_bytes = snapshot_bytes(capacity);
-  // States at the start of a tick and after it, one for each tick and one more; states just before a step, and one
-  // more.
+  // The states between ticks: one for each tick of the window, and one more. The states just before the step of each
+  // tick, and one spare image.
   layout.images = place(uint64_t{layout.image_bytes} * (2 * window + 2));
   layout.records = place(record * window);
   layout.boxes = place(bounds);
@@ -342,10 +342,10 @@ struct RollbackLayout {
   uint64_t bytes;  ///< 0: out of range
 };
 
-// The number of ticks whose inputs are kept, around the first tick for which a machine lacks an input. The machine is
-// up to one window ahead of that tick. A remote player is up to one delay and one window ahead of the machine, and its
-// inputs are one delay ahead of the player. The machine may have to send its own inputs of up to one window and one
-// delay before that tick. A delay is at most one window.
+// The number of ticks whose inputs are kept. Let t be the first tick for which a machine lacks an input. The machine is
+// up to one window ahead of t. A remote player is up to one delay and one window ahead of the machine, and its inputs
+// are one delay ahead of the player. The machine may have to send its own inputs of the last window and delay before t.
+// A delay is at most one window.
 constexpr uint32_t rollback_ticks_kept(uint32_t window) { return 6 * window + 2; }
 
 constexpr RollbackLayout rollback_layout(Capacity capacity, const RollbackDef& def) {
@@ -382,7 +382,7 @@ constexpr uint32_t rollback_bytes(Capacity capacity, const RollbackDef& def) {
 
 /// The settings of sync_test().
 struct SyncTestDef {
-  uint32_t ticks = 1;               ///< number of ticks to make and to repeat
+  uint32_t ticks = 1;               ///< number of ticks to simulate and to repeat
   const uint8_t* inputs = nullptr;  ///< [tick][player]: the inputs; null if there are none
   uint32_t players = 0;             ///< TickInputs::players
   uint32_t input_bytes = 0;         ///< TickInputs::input_bytes
@@ -391,7 +391,7 @@ struct SyncTestDef {
 /// The result of sync_test().
 struct SyncTestReport {
   uint64_t tick = 0;    ///< digest_differs: ticks completed in the first state that differs
-  uint64_t first = 0;   ///< digest of this state when the tick was first made
+  uint64_t first = 0;   ///< digest of this state when the tick was simulated first
   uint64_t second = 0;  ///< digest of this state when the tick was repeated
 };
 
@@ -401,7 +401,7 @@ constexpr uint32_t sync_test_bytes(Capacity capacity, uint32_t ticks, uint32_t g
   return ticks == 0 || bytes > UINT32_MAX || snapshot_ring_bytes(capacity, 1) == 0 ? 0 : static_cast<uint32_t>(bytes);
 }
 
-/// Tests the TickMaker of a session: makes ticks, restores the state before them, makes them again, and compares the
+/// Tests the TickMaker of a session: simulates ticks, restores the state before them, repeats them, and compares the
 /// digests. `game`: the state besides the world that the maker changes; {}: none. Afterwards the world and `game` have
 /// the state after the repeated ticks.
 /// Errors: digest_differs (`report` has the tick; the world is at this tick), out_of_range, buffer_too_small,

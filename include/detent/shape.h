@@ -21,8 +21,9 @@ enum class ShapeType : uint32_t {
 };
 
 /// A shape in its body's frame, centred on the centre of mass. Make one with the functions below.
-/// Sizes, m: [2^-14, 2^14] (0.06 mm to 16 km); the ratio of a shape's largest to its smallest size is at most 2^14.
-/// In a world, the bounding radius (with `rounding`) must be below 2^15 m and at most 2^14 times the smallest size.
+/// The *sizes* of a shape are those of its members `radius`, `half_length` and `half_extents` that its type uses, m:
+/// [2^-14, 2^14] (0.06 mm to 16 km). The largest size is at most 2^14 times the smallest. In a world, the bounding
+/// radius (with `rounding`) must be below 2^15 m and at most 2^14 times the smallest size.
 struct Shape {
   ShapeType type = ShapeType::sphere;  ///< selects which of the members below are used
   Real radius = 0.5;                   ///< m; of a sphere, capsule, cylinder, and of a cone's base
@@ -71,9 +72,9 @@ constexpr Shape cone(Real radius, Real half_length) {
   shape.half_length = half_length;
   return shape;
 }
-/// The cooked hull (docs/hull.md) of the asset with the index `asset`, which bind_asset() must have bound. Its origin
-/// is the body's origin. A dynamic body needs a hull in its principal frame. For create_body(); without a world, use
-/// make_hull().
+/// The cooked hull (docs/hull.md) of the asset with the index `asset`, which bind_asset() must have bound. The hull's
+/// origin is the body's origin. A dynamic body needs a hull in its principal frame (HullFrame). For create_body();
+/// without a world, use make_hull().
 constexpr Shape hull(uint32_t asset) {
   Shape shape;
   shape.type = ShapeType::hull;
@@ -86,9 +87,9 @@ constexpr Shape rounded(Shape shape, Real rounding) {
   return shape;
 }
 /// A terrain: the triangle mesh (docs/mesh.md) or height field (docs/height_field.md) of the asset with the index
-/// `asset`, which bind_asset() must have bound. For fixed and kinematic bodies only. Its origin is the body's origin. A
-/// terrain is a surface without an inside: a body on its back side is pushed out on the back side. A one-sided terrain
-/// does not push bodies on its back side.
+/// `asset`, which bind_asset() must have bound. For fixed and kinematic bodies only. The terrain's origin is the body's
+/// origin. A terrain is a surface without an inside: a body on its back side is pushed out on the back side. A
+/// one-sided terrain does not push bodies on its back side.
 constexpr Shape terrain(uint32_t asset) {
   Shape shape;
   shape.type = ShapeType::terrain;
@@ -96,7 +97,7 @@ constexpr Shape terrain(uint32_t asset) {
   return shape;
 }
 /// The compound of convex shapes (docs/compound.md) of the asset with the index `asset`, which bind_asset() must have
-/// bound. Its origin is the body's origin. Its parts have the rounding of the cooked data.
+/// bound. The compound's origin is the body's origin. Its parts have the rounding of the cooked data.
 constexpr Shape compound(uint32_t asset) {
   Shape shape;
   shape.type = ShapeType::compound;

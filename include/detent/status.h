@@ -18,11 +18,11 @@ enum class [[nodiscard]] Status : uint32_t{
     buffer_too_small,    ///< the caller's block or buffer holds fewer bytes than the call needs
     buffer_misaligned,   ///< the caller's block, buffer or asset is not aligned to 8 bytes
     asset_missing,       ///< an asset is not in the asset table, or is not bound
-    asset_mismatch,      ///< the asset in the table differs from the asset that the state was made with
+    asset_mismatch,      ///< the asset in the table differs from the asset that the state was simulated with
     not_detent,          ///< the bytes are not in a format of Detent
     format_unknown,      ///< the bytes have a format version that this build does not read
-    simulation_differs,  ///< the bytes were made by another simulation version
-    config_differs,      ///< the bytes were made by another math configuration
+    simulation_differs,  ///< the bytes were written by another simulation version
+    config_differs,      ///< the bytes were written by another math configuration
     capacity_differs,    ///< the bytes or the world have another capacity
     corrupt,             ///< a checksum, a range or the structure of the bytes is wrong
     truncated,           ///< the bytes end too early

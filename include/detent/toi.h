@@ -14,7 +14,7 @@ struct Motion {
   Vec3<Real> rotation_vector = {};                       ///< over the step, rad; length at most 2^16
 };
 
-/// The result for a step.
+/// Whether two moving shapes collide in a step.
 enum class ToiOutcome : uint32_t {
   clear = 1,      ///< the shapes do not touch during the step
   hit = 2,        ///< at `time` the distance of the shapes is at most the tolerance
@@ -24,12 +24,12 @@ enum class ToiOutcome : uint32_t {
 /// When and where two moving shapes collide.
 struct TimeOfImpact {
   ToiOutcome outcome = ToiOutcome::undecided;  ///< whether the shapes collide
-  /// Fraction of the step. It is never late: before `time` the shapes do not touch, unless they touch at the start. 1
-  /// if clear.
+  /// Fraction of the step, never late: before `time` the shapes do not touch, unless they touch at the start. 1 if the
+  /// outcome is `clear`.
   Fraction time = 0.0;
   Vec3<Unit> normal = {};  ///< at `time`, from A to B, world axes; zero if the cores touch at the start
   Vec3<Real> point = {};   ///< of a hit, on A's surface, m, from A's position at `time`, world axes
-  uint32_t gjk_calls = 0;  ///< calls of GJK, except a confirmation of the hit with a single support point
+  uint32_t gjk_calls = 0;  ///< calls of GJK; a call that confirms the hit with one support point does not count
   uint32_t passes = 0;     ///< time intervals tried
 };
 

@@ -11,19 +11,24 @@ inline namespace DETENT_NAMESPACE {
 /// along certified separating axes. They differ in how far they advance along one axis. The other methods are from the
 /// literature, for comparison.
 enum class ToiMethod {
-  paper,         ///< Coumans' Algorithm 1: bounds the approach speed by n.v + |wA| rA + |wB| rB; one step per axis
-  first_order,   ///< bounds it by n.v + |n x wA| rA + |n x wB| rB, with the same core radii r; one step per axis
+  /// Coumans' Algorithm 1: bounds the approach speed along the axis n by n.v + |wA| rA + |wB| rB, with the core radii
+  /// rA and rB. One advance per axis.
+  paper,
+  /// As `paper`, but with the bound n.v + |n x wA| rA + |n x wB| rB.
+  first_order,
   second_order,  ///< repeats advances along an axis fixed in the world, by a concave bound of the separation
   corotating,    ///< as second_order, but the axis rotates with the body that has the face or edge
   /// As constant_angular_velocity, but both bodies move in the world frame. The other methods move B relative to A.
   /// Both formulations are from Coumans.
   world_space,
   constant_angular_velocity,  ///< as corotating, but the axis of two edges rotates so that it is also exact at contact
-  mirtich,                    ///< advances until the bounds of both bodies' motions add up to their distance
+  mirtich,                    ///< advances until the bounds of both motions add up to the distance of the shapes
   baraff,                     ///< finds the root of the separation along a witness axis; may miss a contact
   feature_pairs,              ///< polytopes: finds the first contact of all pairs of features
-  redon,  ///< polytopes: as feature_pairs, for the screw motion between both end poses (a different motion)
-  canny,  ///< polytopes: as feature_pairs, by numerical roots and for rotation by normalised lerp; may miss a contact
+  redon,  ///< polytopes: as feature_pairs, but for another motion: the screw motion from the start pose to the end pose
+  /// Polytopes: as feature_pairs, but for another motion: rotation by normalised lerp. Finds roots numerically; may
+  /// miss a contact.
+  canny,
 };
 
 /// time_of_impact() (toi.h) by a selected method. Errors: bad_argument for a shape that the method does not support.

@@ -23,7 +23,8 @@ struct Capacity {
   uint32_t bodies = 0;    ///< at least 1
   uint32_t contacts = 0;  ///< one for a pair of convex bodies, up to 8 for a pair with a terrain or compound
   uint32_t assets = 0;    ///< assets that can be bound
-  /// Room to recycle contact points (WorldDef::contact_recycle_distance); takes 160 bytes a contact (f64: 272).
+  /// Whether contact points can be recycled (WorldDef::contact_recycle_distance). Takes 160 bytes for each contact
+  /// (f64: 272).
   bool manifolds = true;
   uint32_t joints = 0;  ///< joints
   uint32_t sensed = 0;  ///< pairs of a sensor and a body within it; 0: no sensors
@@ -47,7 +48,8 @@ enum class Stabilisation : uint32_t {
 
 /// The settings of a world. Every field but the capacity has a working default.
 ///
-/// The *smaller extent* of a pair is the lesser of its two bodies' smallest diameters, m.
+/// The *extent* of a body is its smallest diameter, m. The *smaller extent* of a pair is the lesser of the extents of
+/// its two bodies.
 struct WorldDef {
   /// How many objects of each kind the world can hold.
   Capacity capacity = {};
@@ -58,19 +60,20 @@ struct WorldDef {
   uint32_t substeps = 0;
   uint32_t substeps_max = 32;  ///< largest number that the step chooses if `substeps` is 0, [1, 64]
   /// The accuracy of contacts at rest: the step chooses so many substeps that a contact sinks under its load by at most
-  /// this fraction of the smaller extent, [2^-12, 2^-3]. A quarter of the value takes about twice the substeps. Their
-  /// number is bounded by `substeps_max`, in large islands by their contacts, and with joints by 6 (SPEC.md,
-  /// "Substeps").
+  /// this fraction of the smaller extent, [2^-12, 2^-3]. A quarter of the value takes about twice the substeps. For
+  /// this accuracy an island takes at most `substeps_max` substeps, at most 6 if it has joints, and fewer if it has
+  /// many contacts (SPEC.md, "Substeps").
   Real resting_penetration = Real(1.0 / 144);
   uint32_t iterations = 1;  ///< solver iterations over the contacts in a substep, [1, 64]
-  /// The iterations of a substep end early if the last iteration changed no velocity by more than 2^-convergence g h.
-  /// Here h is the length of the substep, and g the gravity, but at least 1 m/s^2. Range: [0, 30].
+  /// [0, 30]. The iterations of a substep end early if the last iteration changed no velocity by more than
+  /// g h / 2^convergence. Here h is the length of the substep, s, and g the magnitude of the gravity, but at least
+  /// 1 m/s^2.
   uint32_t convergence = 12;
   /// How the solver corrects penetration.
   Stabilisation stabilisation = Stabilisation::soft;
   Real relaxation = 1.0;                ///< over-relaxation factor of the SOR solver, [1/4, 7/4]
-  /// Frequency of soft contacts as a fraction of the substep rate; in islands with joints as a fraction of the rate of
-  /// 24 substeps, if there are fewer. Range: [1/64, 1/4].
+  /// Frequency of soft contacts, as a fraction of the substep rate. An island with joints and fewer than 24 substeps
+  /// uses the frequency that it would have with 24. Range: [1/64, 1/4].
   Real contact_frequency = Real(0.14);
   /// Damping ratio of soft contacts, [0, 64]. Contacts between two dynamic bodies use 0.7 times this value, all other
   /// contacts half of it.
@@ -126,7 +129,7 @@ struct StepObserver {
   void (*stage_ended)(void* context, const World& world, StepStage stage, uint32_t contacts) = nullptr;
   void* context = nullptr;  ///< passed to `stage_ended`
   /// @cond
-  // Internal: makes the step instead of step(), for RollbackSession.
+  // Internal, for RollbackSession: computes the step in place of step().
   StepReport (*step)(void* context, World& world) = nullptr;
   /// @endcond
 };
@@ -155,8 +158,8 @@ struct WorldHooks {
 struct World {
   uint8_t* block = nullptr;                ///< the block passed to create_world()
   const FeatureTable* features = nullptr;  ///< the features passed to create_world()
-  /// The most contacts that the solver processes at once: 1, 4 or 8. create_world() sets what this machine supports: 8
-  /// in f32 on x86-64, 4 in other builds with lanes, else 1. The results are bit-identical.
+  /// The most contacts that the solver processes at once, in vector registers: 1, 4 or 8. create_world() sets what this
+  /// machine supports: 8 in f32 on x86-64, 4 in other builds with vector code, else 1. The results are bit-identical.
   uint32_t lanes = 1;
   /// The hooks passed to create_world(). They may be changed between calls, but the assets and filter rules that bodies
   /// use must stay available.
@@ -169,12 +172,13 @@ struct ContactReport {
   uint32_t count = 0;     ///< contacts, each with at least one contact point
   uint32_t points = 0;    ///< points of all these contacts, at most four each
   uint32_t recycled = 0;  ///< contacts whose points were recycled because the pair had hardly moved
-  /// Pairs whose contact search hit its iteration cap (the normal may not be the direction of least penetration), or
-  /// that have no contact because an asset's bytes are missing.
+  /// Pairs whose contact search reached its iteration cap (the normal may not be the direction of least penetration),
+  /// and pairs that have no contact because an asset's bytes are missing.
   uint32_t capped = 0;
   uint32_t sweeps_saved = 0;  ///< solver iterations skipped because an island converged (WorldDef::convergence)
-  uint64_t substeps = 0;      ///< sum over all contacts of their islands' substeps: the work of the solver
-  /// Contacts that found no free colour, because other contacts of their two bodies use all 64. They are solved last.
+  uint64_t substeps = 0;      ///< the substeps of its island for each contact, summed: measures the work of the solver
+  /// Contacts that are solved last in their island, because other contacts of their two bodies use all 63 colours. (A
+  /// colour is a set of contacts that share no dynamic body.)
   uint32_t colour_overflows = 0;
 };
 
@@ -193,10 +197,10 @@ struct CcdReport {
   /// Bodies that stopped before the end of the tick. Reasons: too many impacts (docs/continuous_collision.md), a full
   /// impact pool, or an overlap that is too deep. They stay at their last safe pose until the tick ends.
   uint32_t bodies_stopped = 0;
-  Real lost_time = 0.0;  ///< sum over these bodies of the fraction of the tick for which they stood still
+  Real lost_time = 0.0;  ///< for each stopped body the fraction of the tick for which it stood still, summed
   uint32_t tests = 0;    ///< times of impact computed
-  /// Pairs not tested for impact because they are too slow to collide in the tick. A pair counts again after each
-  /// impact of one of its bodies; so it does in `kept_apart`.
+  /// Pairs not tested for impact because they are too slow to collide in the tick. A pair counts once more after each
+  /// impact of one of its bodies. The same holds for `kept_apart`.
   uint32_t skipped = 0;
   uint32_t kept_apart = 0;  ///< pairs not tested for impact because their contacts keep them apart
 };
@@ -228,7 +232,7 @@ struct EventReport {
   uint32_t sensor = 0;    ///< events written to WorldHooks::sensor_events (sensor.h)
   uint32_t body = 0;      ///< events written to WorldHooks::body_events (bodies that fell asleep or woke)
   uint32_t capacity = 0;  ///< events written to WorldHooks::capacity_events
-  /// Contact events beyond the capacity of their buffer, and hits beyond Capacity::contacts.
+  /// Contact events beyond the capacity of their buffer, and hit events of impacts beyond Capacity::contacts.
   uint32_t contact_dropped = 0;
   uint32_t joint_dropped = 0;   ///< joint events beyond the capacity of their buffer
   uint32_t sensor_dropped = 0;  ///< sensor events beyond the capacity of their buffer
@@ -321,7 +325,8 @@ Status set_user_data(World& world, BodyId id, uint32_t user_data);
 /// Sets the filter of a body, and wakes the body. Contacts that the filter now forbids end in the next step; the other
 /// bodies of these contacts wake. Errors: bad_id, rule_missing.
 Status set_filter(World& world, BodyId id, const Filter& filter);
-/// Binds the table's asset `index` to the state by its content digest. Cooked shapes are checked in full.
+/// Binds the asset `index` of WorldHooks::assets: the state stores the digest of its content. Cooked shapes are checked
+/// in full.
 /// Errors: asset_missing, out_of_range, asset_mismatch (bodies use the asset that was bound at this index),
 /// feature_missing (the world has neither hulls, terrains nor compounds).
 Status bind_asset(World& world, uint32_t index);
@@ -334,8 +339,8 @@ bool is_valid(const World& world, BodyId id);
 /// The pose of a body, m, world. Errors: bad_id.
 Status get_pose(const World& world, BodyId id, Pose& pose);
 /// The velocity of the centre of mass, m/s, and the angular velocity, rad/s, both in world axes. Overflow: components
-/// of the angular velocity are clamped to the range of Real, which only bodies smaller than 12 cm can exceed. Errors:
-/// bad_id.
+/// of the angular velocity are clamped to the range of Real; only those of a body with a bounding radius below 12.5 cm
+/// can exceed it. Errors: bad_id.
 Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Real>& angular_velocity);
 /// The mass, kg; 0 for fixed and kinematic bodies. Getters of the other properties: body.h.
 /// Errors: bad_id.
@@ -359,7 +364,8 @@ uint64_t digest(const World& world);
 constexpr uint32_t snapshot_bytes(Capacity capacity);
 /// Copies the persistent state into `bytes`. Errors: buffer_too_small.
 Status save(const World& world, uint8_t* bytes, uint32_t byte_count);
-/// Restores a snapshot that this program saved from a world of the same capacity: one copy; only the header is checked.
+/// Restores a snapshot that this program saved from a world of the same capacity. Checks only the header, and copies
+/// the bytes.
 /// Errors: truncated, not_detent, format_unknown, simulation_differs, config_differs, capacity_differs, feature_missing
 /// (the world that saved it had a feature that this world lacks).
 Status restore(World& world, const uint8_t* bytes, uint32_t byte_count);
@@ -370,8 +376,8 @@ Status load(World& world, uint8_t* bytes, uint32_t byte_count);
 
 /// The definition that creates an empty world with this world's settings and capacity.
 WorldDef get_settings(const World& world);
-/// Changes all settings and wakes every body; `def.capacity` is ignored. Forces that were applied since the last step
-/// still add the change of velocity of a tick of the old length.
+/// Changes all settings and wakes every body; `def.capacity` is ignored. A force that was applied since the last step
+/// still changes the velocity by what it adds in a tick of the old length.
 ///
 ///     WorldDef def = get_settings(world);
 ///     def.substeps = 8;
@@ -386,7 +392,8 @@ struct CapacityUse {
   uint32_t contacts = 0;  ///< contacts kept (those of sleeping bodies included) and dropped
   /// Pairs with overlapping bounds, kept and dropped; the pool holds 2 x Capacity::contacts.
   uint32_t pairs = 0;
-  /// Pairs of continuous collision, kept and dropped; the pool holds Capacity::contacts. 0 if none was dropped.
+  /// Pairs of continuous collision, kept and dropped, in steps that dropped some; the pool holds Capacity::contacts. 0
+  /// if no step dropped any.
   uint32_t impacts = 0;
   uint32_t joints = 0;      ///< joints in the world
   uint32_t sensed = 0;      ///< bodies within sensors, kept and dropped
@@ -411,8 +418,8 @@ constexpr void note_use(const StepReport& report, const WorldInfo& after, Capaci
 }
 
 /// Returns a capacity with room for the recorded use plus a quarter of it, rounded up, and for at least one body.
-/// `assets` and `manifolds` are not recorded, but copied from `now`. Dropped entries change the motion. Therefore a run
-/// with the larger capacity may need still more capacity: record this run too.
+/// `assets` and `manifolds` are not recorded, but copied from `now`. If entries were dropped, a run with the larger
+/// capacity moves differently, and may need still more capacity: record that run too.
 constexpr Capacity suggest_capacity(const CapacityUse& use, const Capacity& now) {
   const auto with_spare = [](uint32_t count) {
     const uint32_t spare = count / 4 + (count % 4 != 0 ? 1 : 0);

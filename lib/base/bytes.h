@@ -16,8 +16,8 @@ inline uint64_t load_u64(const uint8_t* bytes) {
   return k_big_endian ? __builtin_bswap64(value) : value;
 }
 
-/// Whether the `count` bytes at `a` and `b` are equal. It is not memcmp, whose result clang compares with 0 by a call
-/// of bcmp, which bare targets lack.
+/// Whether the `count` bytes at `a` and `b` are equal. Not memcmp(): clang turns a comparison of its result with 0 into
+/// a call of bcmp(), which bare targets lack.
 inline bool have_same_bytes(const void* a, const void* b, uint32_t count) {
   const auto* bytes_a = static_cast<const uint8_t*>(a);
   const auto* bytes_b = static_cast<const uint8_t*>(b);

@@ -4,8 +4,9 @@
 #include "base/float_environment.h"
 #include "base/span.h"
 
-/// Shares the loops of a stage among threads that the caller lends (detent/tasks.h). One thread runs the stage. In its
-/// loops by share(), it and the others take the elements chunk by chunk. So a stage needs only one call of Tasks::run.
+/// Shares the loops of a stage among threads that the caller lends (detent/tasks.h). One thread runs the stage. In the
+/// loops of the stage (share()), all threads take the elements chunk by chunk. So a stage needs only one call of
+/// Tasks::run.
 #ifndef DETENT_TASKS
 #if defined(__unix__) || defined(_WIN32) || defined(__APPLE__)
 #define DETENT_TASKS 1
@@ -32,15 +33,15 @@ class Team {
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
 
-  /// Calls work() once, on one of the threads. The other threads help with the loops in it. A thread that finds no loop
-  /// for a while leaves.
+  /// Calls work() once, on one of the threads. The other threads help with the loops of work(). A thread that finds no
+  /// loop for a while leaves.
   template <class Work>
   void run(const Work& work) {
     work_ = [](const void* of) { (*static_cast<const Work*>(of))(); };
     of_work_ = &work;
     tasks_.run(
         tasks_.context, tasks_.workers, [](void* team) { static_cast<Team*>(team)->enter(); }, this);
-    enter();  // in case that no call was made
+    enter();  // in case Tasks::run has made no call
   }
 
   /// Calls body(first, last) for consecutive ranges of `count` elements, in any order, on any of the threads. A range
@@ -130,8 +131,8 @@ class Team {
       pauses = 0;
     }
   }
-  /// Runs the chunks of a loop that no other thread has taken. Each thread begins elsewhere, and at the same place in
-  /// each loop, so that its cache keeps the data.
+  /// Runs the chunks of a loop that no other thread has taken. Each thread begins at a place of its own, which is the
+  /// same in every loop, so that its cache keeps the data.
   void take_chunks(uint32_t loop, uint32_t thread) {
     const uint32_t chunks = loop % k_chunk_codes;
     const TaskProbe* const probe = tasks_.probe;
@@ -140,7 +141,7 @@ class Team {
       const uint32_t chunk = probe != nullptr && probe->part != nullptr ? probe->part(probe->context, i, chunks) : next;
       if (++next == chunks) next = 0;
       if (!take_chunk(chunk, loop)) continue;
-      // The loop cannot end before this chunk is finished, so its description is valid.
+      // The loop cannot end before this chunk is finished, so the description of the loop stays valid.
       if (probe != nullptr && probe->part_begins != nullptr) probe->part_begins(probe->context);
       const uint32_t first = chunk * grain_, rest = count_ - first;
       chunk_(of_chunk_, first, first + (rest < grain_ ? rest : grain_));
@@ -149,8 +150,8 @@ class Team {
     }
     if (taken != 0) __atomic_fetch_sub(&unfinished_, taken, __ATOMIC_RELEASE);
   }
-  /// Takes a chunk for this thread. Returns false if it was taken in this loop or, because the loop has ended, in a
-  /// later one.
+  /// Takes a chunk for this thread. Returns false if a thread has already taken the chunk in this loop, or in a later
+  /// loop, which means that this loop has ended.
   bool take_chunk(uint32_t chunk, uint32_t loop) {
     uint32_t taken_in = load(taken_in_[chunk]);
     do {
@@ -183,7 +184,7 @@ void with_team(const Tasks& tasks, const Work& work) {
   Team team(tasks);
   team.run([&] { work(&team); });
 }
-/// The same, with `team` null also if there are few elements.
+/// As with_team() above, but `team` is null also if there are fewer than least_of(tasks) elements.
 template <class Work>
 void with_team(const Tasks& tasks, uint32_t elements, const Work& work) {
   if (elements >= least_of(tasks))

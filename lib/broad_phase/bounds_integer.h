@@ -16,7 +16,7 @@ inline int64_t integer_from(Coord x) {
 #endif
 }
 
-/// One step of the integer of integer_from() is 2^-k_coord_bits m.
+/// The result of integer_from() is in units of 2^-k_coord_bits m.
 #if defined(DETENT_F64)
 inline constexpr int k_coord_bits = 20;
 #else

@@ -67,8 +67,8 @@ int64_t integer_length(Real length) {
 #endif
 }
 
-/// The depth of the bounds `box` below the surface of a half-space, in steps of a coordinate; 0 if the bounds are above
-/// it.
+/// The depth of the bounds `box` below the surface of a half-space, in units of 2^-k_coord_bits m; 0 if the bounds are
+/// above the surface.
 uint64_t depth_within(const BodyPose& half_space, const Bounds& box) {
   const Vec3<Unit> up = matrix_from(half_space.rotation).column[1];
   const Unit zero = 0.0;
@@ -125,7 +125,7 @@ void PairPool::consider(uint32_t a, uint32_t b) {
   if (takes_pair(*this, a, b)) add_pair(key_of_pair(a, b), *this);
 }
 
-/// Sorts by the higher slot and then, stably, by the lower slot. Uses only as many digits as slot numbers have.
+/// A radix sort by the higher slot and then, stably, by the lower slot. Uses only as many digits as slot numbers have.
 void PairPool::sort() {
   const int bytes = properties.count <= 256 ? 1 : properties.count <= 65536 ? 2 : 3;
   radix_sort(

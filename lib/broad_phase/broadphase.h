@@ -13,7 +13,7 @@ inline namespace DETENT_NAMESPACE {
 
 /// The priority of pairs in a full pool: the pair whose bounds overlap deeper comes first; at equal depths, the pair
 /// with the lower key. The depth is the least overlap along a coordinate axis; for a half-space, it is the depth of the
-/// bounds below its surface. Unit: a step of a coordinate (f64: 2^-20 m).
+/// bounds below its surface. Unit: 2^-k_coord_bits m (bounds_integer.h).
 struct DeeperPair {
   Span<const BodyPose> poses;
   Span<const BodyProperties> properties;
@@ -33,7 +33,7 @@ struct PairPool {
   SmallestOf<uint64_t, DeeperPair> found;
   Overflow* overflow = nullptr;  ///< receives the pairs that are not kept; may be null
 #if DETENT_TASKS
-  Team* team = nullptr;  ///< the threads that find pairs; null: none
+  Team* team = nullptr;  ///< the threads that find pairs; null: one thread
 #else
   static constexpr Team* team = nullptr;
 #endif
@@ -66,13 +66,13 @@ struct PairPool {
   void go_on();
 };
 
-/// Finds all pairs of moving bodies with each other, and of moving bodies with bodies in the tree. The first are found
-/// by sort and sweep along the axis on which the moving bodies spread farthest: O(n + number of pairs that overlap on
-/// this axis). `keys` and `spare` are work space with one element for each moving body.
+/// Finds all pairs of moving bodies with each other, and of moving bodies with bodies in the tree. Pairs of moving
+/// bodies are found by sort and sweep along the axis on which the moving bodies spread farthest: O(n + number of pairs
+/// that overlap on this axis). `keys` and `spare` are work space with one element for each moving body.
 void add_moving_pairs(Span<const uint32_t> moving, const RestingTree& resting, Span<BoundsKey> keys,
                       Span<BoundsKey> spare, PairPool& pool);
 
-/// The pairs that one thread finds. With several threads, it adds them to the pool a few at a time.
+/// The pairs that one thread finds. With several threads, they are added to the pool a few at a time.
 class PairFinder {
  public:
   explicit PairFinder(PairPool& pool) : pool_(pool) {}

@@ -10,8 +10,8 @@ inline namespace DETENT_NAMESPACE {
 /// A tree of the bounds of resting bodies: those that are fixed, asleep, or kinematic without velocity. A step queries
 /// the tree for nearby bodies. It changes the tree only for bodies that come to rest or start to move.
 ///
-/// The tree is a binary trie. The key of a body has three parts. The first part is the size of its bounds, as a power
-/// of 16, so that large bodies do not enlarge the tree nodes of small bodies. The second part is the cell of the
+/// The tree is a binary trie. The key of a body has three parts. The first part is the longest side of its bounds, as a
+/// power of 16, so that large bodies do not enlarge the tree nodes of small bodies. The second part is the cell of the
 /// centre, in Morton order; cells are about as large as the body. The third part is the slot. Therefore the shape of
 /// the tree depends only on the bodies in it, not on the order of insertion, and no path from the root is longer than
 /// k_depth_max. The tree is a cache, which snapshots do not store. The result of a query does not depend on the shape

@@ -8,13 +8,14 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A *grain* is four steps of a coordinate, so that the difference of two coordinates in grains fits 64 bits.
+/// A *grain* is four units of integer_from(), so that the difference of two coordinates in grains fits 64 bits.
 constexpr int k_grain_steps_bits = 2;
 constexpr int k_grain_bits = k_metre_bits - (k_coord_bits - k_grain_steps_bits);  ///< in 2^-46 m
 constexpr int k_cells_bits = 29;
 constexpr int64_t k_place_limit = int64_t{1} << 30;
-/// The tolerance is 2^-k_tolerance_bits of a size. The tolerance of time_of_impact() is below 2^-18.7 of the sum of
-/// both sizes. The rounding errors of bounds and of closest_points() are far smaller.
+/// The tolerance is 2^-k_tolerance_bits of a size, which is the longest side of the bounds. The tolerance of
+/// time_of_impact() is below 2^-18.7 of the sum of both sizes. The rounding errors of bounds and of closest_points()
+/// are far smaller.
 constexpr int k_tolerance_bits = 18;
 
 int64_t grains_of(Coord x) { return integer_from(x) >> k_grain_steps_bits; }
@@ -119,7 +120,7 @@ Fraction SweptBox::entry(const Place& place) const {
 }
 
 bool SweptBox::is_near(const Place& place, int64_t distance_max) const {
-  // A distance also has an error proportional to the distance of the centres.
+  // The term 2^-22 covers an error of distances that is proportional to the distance of the centres.
   const int64_t cells = rounded_up(distance_max + (distance_max >> 22), cell_bits_) + 1;
   for (int i = 0; i < 3; ++i) {
     if (place.low[i] > cells || place.high[i] < -cells) return false;

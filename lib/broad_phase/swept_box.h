@@ -24,7 +24,7 @@ class SweptBox {
   /// `half`: half extents of the box. `displacement`: displacement of its centre. `distance_max`: the greatest search
   /// distance that is_near() will be called with. All in 2^-46 m, below 2^61.
   SweptBox(const Position& centre, const Vec64& half, const Vec64& displacement, int64_t distance_max);
-  /// Shortens the path: it now ends at the fraction `end` of the whole path.
+  /// Shortens the path, so that it ends at the fraction `end` of the whole path.
   void shorten(Fraction end);
 
   Place place_of(const Bounds& bounds) const;

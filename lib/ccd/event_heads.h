@@ -6,7 +6,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Whether the event of pair `a` comes before that of pair `b`. Neither has to have one.
+/// Whether the event of pair `a` comes before that of pair `b`: at an earlier time, or at the same time with a lower
+/// key. Range: both pairs have an event.
 inline bool is_earlier(const ImpactPair& a, const ImpactPair& b) {
   return a.time < b.time || (a.time == b.time && a.key < b.key);
 }
@@ -16,7 +17,7 @@ inline bool is_earlier(const ImpactPair& a, const ImpactPair& b) {
 /// entries have changed are searched again.
 class EventHeads {
  public:
-  /// Makes room for the blocks of so many entries. If there is too little, is_made() stays false.
+  /// Takes memory for the blocks of this number of entries. If there is too little memory, is_made() is false.
   void make(uint32_t entries, SpareMemory& spare) {
     heads_ = spare.take<Head>((entries + k_block - 1) / k_block);
     for (Head& head : heads_) head.entry = k_stale;
@@ -26,7 +27,7 @@ class EventHeads {
   void touch(uint32_t index) {
     if (is_made()) heads_[index / k_block].entry = k_stale;
   }
-  /// The entry with the earliest event; null if there is none. `has_event(entry)`: whether it has one.
+  /// The entry with the earliest event; null if there is none. `has_event(entry)`: whether the entry has an event.
   template <class HasEvent>
   ImpactPair* earliest(Span<ImpactPair> entries, const HasEvent& has_event) {
     const Head* best = nullptr;

@@ -8,7 +8,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 #if DETENT_TASKS
-/// With fewer entries than this after the first search, all are visited for each event.
+/// With fewer entries than this after the first search, all entries are visited to find each event.
 constexpr uint32_t k_many_entries = 64;
 #endif
 
@@ -27,8 +27,8 @@ ImpactPair* next(ImpactStage& stage) {
   return best;
 }
 
-/// The shrink depth, m, for a pair that has collided at a seam: deeper than resting bodies sink in, but at most that of
-/// a pair in contact.
+/// The shrink depth, m, for a pair that has collided at a seam: 1/64 of the extent or twice the penetration of resting
+/// bodies, whichever is more, but at most that of a pair in contact.
 Real seam_shrink_depth(const ImpactStage& stage, uint64_t key) {
   const Real extent = stage.extent_of(key);
   return min(max(scale_by_power(extent, -6), scale_by_power(stage.settings.sunk, 1)),
@@ -84,7 +84,7 @@ void go_on(ImpactStage& stage, ImpactPair& pair) {
 /// With fewer entries than this after the first search, groups cost more than they save.
 constexpr uint32_t k_entries_for_groups = 64;
 
-/// Processes all events, in groups if that pays.
+/// Processes all events, in groups if that is faster.
 void process_all(ImpactStage& stage) {
   const ImpactProbe* const probe = stage.probe;
   ImpactOrder order = probe == nullptr ? ImpactOrder::automatic : probe->order;
@@ -93,7 +93,7 @@ void process_all(ImpactStage& stage) {
     const bool pays = team != nullptr && stage.impact_count > team->few(k_entries_for_groups);
     order = pays ? ImpactOrder::optimistic : ImpactOrder::global;
   }
-  // These are called, or written to, in the order of the events.
+  // The listener is called, and the segments are written, in the order of the events.
   if (stage.bodies.listener.ended != nullptr || (probe != nullptr && probe->segments.count != 0))
     order = ImpactOrder::global;
   WarpCount none;

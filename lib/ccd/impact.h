@@ -13,26 +13,27 @@
 ///
 /// The impacts of the whole world are processed in the order of their times, ties by the pair's slots. For each impact,
 /// both bodies move to the time of impact, an impulse separates them, and the rest of both sweeps is tested against all
-/// other bodies again. The impulse is computed twice: from the velocities of the sweeps, for the rest of the tick, and
-/// from the current velocities of the bodies' state, so that an approach which the solver has already resolved is not
-/// resolved again. Each impulse acts on both bodies with opposite sign.
+/// other bodies again. The impulse is computed twice. One impulse is computed from the velocities of the sweeps and
+/// changes the sweeps for the rest of the tick. The other is computed from the velocities in the bodies' state and
+/// changes these, so that an approach that the solver has already resolved is not resolved again. Each impulse acts on
+/// both bodies with opposite sign.
 ///
 /// If a pair collides again at the same time, it stays in contact for the rest of the tick. Its shrunken cores are then
 /// tested, at increasing shrink depths (impact_pair.h), so that the bodies can slide on. A body stops until the end of
 /// the tick if it reaches k_impacts_max impacts, or if the list has no room for its next impact. It then stays at its
-/// last pose that is certainly free. The time that it loses is reported.
+/// last pose that is known to be free of collisions. The time that it loses is reported.
 ///
 /// The work of a tick has a budget (k_impact_work_times). Once the budget is spent, pairs are tested with cores that
-/// are shrunk by an eighth of the smaller body's extent. Shallower collisions are left to the contacts of the next
-/// tick. The limit of impacts per body is then k_impacts_max_spent.
+/// are shrunk by an eighth of the smaller body's smallest diameter. Shallower collisions are left to the contacts of
+/// the next tick. The limit of impacts per body is then k_impacts_max_spent.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 inline constexpr uint32_t k_impacts_max = 32;  ///< per body and tick
 /// `k_impacts_max_spent`: limit of impacts per body and tick once the budget of work is spent. The unit of work is one
 /// computed time of impact, or one attempt to resolve an impact. The budget is k_impact_work_min plus
-/// k_impact_work_times the sum of three numbers: the moving bodies, and the first test's computed times of impact and
-/// skipped pairs.
+/// k_impact_work_times the sum of four numbers: the moving bodies and, from the first test of all pairs, the computed
+/// times of impact, the skipped pairs and the pairs kept apart by their contacts.
 inline constexpr uint32_t k_impacts_max_spent = 16, k_impact_work_times = 8, k_impact_work_min = 512;
 /// A jointed body's sweep is marked with k_mark_jointed times the number of the body's island. These numbers begin at
 /// 1. All other marks are less than k_mark_jointed.
@@ -52,7 +53,7 @@ struct ImpactUse {
 enum class ImpactOrder : uint8_t {
   automatic,     ///< `optimistic` if there are threads and enough impacts, else `global`
   global,        ///< in the order of their times over the whole world
-  conservative,  ///< in groups that also hold what their bodies were near at the start (time_warp.cpp)
+  conservative,  ///< in groups connected by the first impacts and by ImpactPairs::pairs (time_warp.cpp)
   optimistic,    ///< in groups that are connected by the first impacts
 };
 
@@ -62,12 +63,12 @@ struct WarpCount {
   uint32_t speculations = 0;  ///< runs of groups
   uint32_t rollbacks = 0;     ///< runs whose result was discarded
   uint32_t rounds = 0;
-  uint32_t returns = 0;  ///< of these ticks: those that were processed in the global order after all
+  uint32_t returns = 0;  ///< ticks that were processed in the global order after all
 };
 #endif
 
 /// For tests: records the sweeps, and can switch off the filter that skips pairs which cannot collide. For rollback:
-/// records what the bodies reach.
+/// records the region that each body reaches.
 struct ImpactProbe {
   bool filters = true;
   /// The segments of all moving bodies, in the order in which they begin; only as many as fit.
@@ -106,7 +107,7 @@ struct SweepListener {
   void* context = nullptr;
 };
 
-/// The bodies of the stage. Each pose is the pose at sweep.from, and is updated with it.
+/// The bodies of the stage. A body's pose is its pose at the time `from` of its sweep; the two are updated together.
 struct ImpactBodies {
   Span<const BodyProperties> properties;
   Span<BodyPose> poses;

@@ -22,8 +22,8 @@ int32_t depth_in_units(int64_t depth, int exponent) {
 
 int32_t less_depth(int32_t size, int32_t depth, int32_t least) { return size - least > depth ? size - depth : least; }
 
-/// Makes the shape smaller by `depth`, 2^-46 m, on all sides. A hull or cone has no such core of its own kind; it is
-/// halved in size `halvings` times instead.
+/// Makes the shape smaller by `depth`, 2^-46 m, on all sides. This is not possible for a hull or cone, which is halved
+/// in size `halvings` times instead.
 void shrink(int64_t depth, int halvings, Convex& convex) {
   switch (convex.type) {
     case ShapeType::sphere:
@@ -49,7 +49,7 @@ void shrink(int64_t depth, int halvings, Convex& convex) {
 }
 
 /// The distance, m, from the centre by which a rotation angle is multiplied to bound the motion of the surface. It is 0
-/// for a sphere and the half length for a capsule: a rotation about its centre does not change a ball.
+/// for a sphere and the half length for a capsule, because a rotation about its own centre does not change a ball.
 Real swing_radius(const BodyProperties& properties) {
   switch (shape_type(properties)) {
     case ShapeType::sphere:
@@ -67,7 +67,8 @@ Real swing_bound(const BodyProperties& properties, const Vec3<Real>& rotation_ve
   const Real zero = 0.0, angle = length(rotation_vector);
   if (angle == zero) return zero;
   if (is_half_space(properties)) return scale_by_power(k_real_max, -2);
-  // Half a revolution moves a point by at most the diameter. The limit also keeps the product in range.
+  // A rotation moves a point by at most the diameter, so larger angles count as 4 rad. The limit also keeps the product
+  // in range.
   return swing_radius(properties) * min(angle, Real(4.0));
 }
 
@@ -102,7 +103,7 @@ bool is_parting(const SweptBody& a, const SweptBody& b, Fraction time, const Tim
   const Vec3<Real> arm_b = impact.point - offset;
   const Real swing_a = dot(cross(impact.point, impact.normal), a.sweep.rotation_vector);
   const Real swing_b = dot(cross(arm_b, impact.normal), b.sweep.rotation_vector);
-  // A slower approach does not pass through the next shrink depth in this tick.
+  // An approach this slow does not pass through the next shrink depth in this tick.
   const Real slow = scale_by_power(min(shape_extent(a.properties), shape_extent(b.properties)), -12);
   return dot(relative, impact.normal) + (swing_b - swing_a) >= -slow;
 }
@@ -158,7 +159,8 @@ bool climb_with(const SweptBody& a, const SweptBody& b, Fraction time, const Shr
              (found.outcome == ToiOutcome::undecided || (is_direction(found.normal) && !is_parting(a, b, time, found)));
     };
     if (now && cores.climbs && !closes()) {
-      // Cores that overlap at the last shrink depth also overlap at all smaller depths. The last depth is tested once.
+      // Cores that overlap at the last shrink depth also overlap at all smaller depths. The last depth is therefore
+      // tested once, before the depths in between.
       if (looked_ahead || is_direction(found.normal)) continue;
       looked_ahead = meeting.climbed = true;
       ++meeting.tests;

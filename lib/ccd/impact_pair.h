@@ -13,15 +13,16 @@ inline namespace DETENT_NAMESPACE {
 
 /// A pair is tested with shrunken cores: both shapes are made smaller by a shrink depth, m. The first depth is 0 (the
 /// surfaces). A pair that has collided in this tick is tested at the smallest depth at which it is separate again. A
-/// pair that is in contact at the start of the tick is tested at a larger depth. So a resting or sliding pair is not
-/// stopped, and still cannot pass through. `extent` is the smaller body's smallest diameter.
+/// pair that is in contact at the start of the tick is tested at contact_shrink_depth() or deeper. So a resting or
+/// sliding pair is not stopped, and the bodies still cannot pass through each other. `extent` is the smaller body's
+/// smallest diameter.
 ///
 /// Returns the shrink depth after `shrink_depth`. The first one is 1/1024 of the extent. Up to 1/16 of the extent each
 /// is four times the one before; then each is larger by 1/32 of the extent.
 Real next_shrink_depth(Real extent, Real shrink_depth);
 /// The shrink depth, m, for a pair that is in contact, `depth` deep, at the start of the tick: 1/8 of the extent, or
-/// half of `depth` plus 1/64 of the extent if that is more. So the pair cannot sink deeper by more than 1/32 of the
-/// extent.
+/// half of `depth` plus 1/64 of the extent if that is more. In the second case, the pair cannot sink deeper by more
+/// than 1/32 of the extent.
 Real contact_shrink_depth(Real extent, Real depth);
 /// The largest shrink depth, m: extent / 2. Bodies that overlap more deeply are not tested.
 Real last_shrink_depth(Real extent);
@@ -43,19 +44,19 @@ inline bool is_direction(const Vec3<Unit>& normal) { return !(normal == Vec3<Uni
 /// From the position of A to that of B, m, world axes.
 inline Vec3<Real> offset_of(const BodyPose& a, const BodyPose& b) { return real_difference(b.position, a.position); }
 
-/// True if the bodies do not approach at the point of an impact found at `time` itself, or approach by at most 1/4096
-/// of the extent per tick. Range: the impact has a normal.
+/// Takes an impact that was found at `time` itself. True if the bodies do not approach at its point, or approach by at
+/// most 1/4096 of the extent per tick. Range: the impact has a normal.
 bool is_parting(const SweptBody& a, const SweptBody& b, Fraction time, const TimeOfImpact& impact);
 
 /// The pose at `time` and the sweep after it, as time_of_impact() takes them.
 Motion motion_from(const SweptBody& body, Fraction time);
 
-/// An upper bound, m, of how far a rotation about the centre moves any point of the body's surface. Of a half-space
-/// that rotates: a quarter of the range of a Real.
+/// An upper bound, m, of how far a rotation about the centre moves any point of the body's surface. For a rotating
+/// half-space: a quarter of the range of a Real.
 Real swing_bound(const BodyProperties& properties, const Vec3<Real>& rotation_vector);
 
-/// An upper bound, m, of the distance of any point of the body's surface from its place at `time`, in the rest of the
-/// tick; see swing_bound().
+/// An upper bound, m, of how far any point of the body's surface moves in the part of the tick after `time`; see
+/// swing_bound().
 Real motion_bound(const SweptBody& body, Fraction time);
 
 /// Makes the body's shape smaller by `shrink_depth`, m, on all sides. Returns false if the shape is not available.
@@ -71,7 +72,7 @@ struct ShrunkenCores {
   Real first;   ///< first shrink depth, m
   Real extent;  ///< extent of the pair, m: the smaller body's smallest diameter
   bool climbs;  ///< continue with the next shrink depth if the cores touch at the start time
-  /// Also continue if the cores touch and approach: an impact of this pair was resolved at this time.
+  /// An impact of this pair was already resolved at the start time: also continue if the cores touch and approach.
   bool resolved;
 };
 
@@ -101,8 +102,8 @@ struct FindAtDepth {
 };
 
 /// Tests two convex shapes, or a convex shape and a terrain. If `cores.climbs`, increases the shrink depth while the
-/// cores at `time` overlap, touch without approaching, or touch and are marked as resolved. Returns false if `find`
-/// returns false.
+/// cores at `time` overlap, touch without approaching, or touch after a resolved impact (`cores.resolved`). Returns
+/// false if `find` returns false.
 bool climb_with(const SweptBody& a, const SweptBody& b, Fraction time, const ShrunkenCores& cores,
                 const FindAtDepth& find, Meeting& meeting);
 

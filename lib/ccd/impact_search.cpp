@@ -22,7 +22,7 @@ Span<const ContactWork> pair_contacts(Span<const ContactWork> from, uint64_t key
   return from.first(count);
 }
 
-/// The end of a sorted list, from the contacts of a pair on.
+/// The part of a sorted list that starts at the contacts of a pair.
 Span<const ContactWork> contacts_from(Span<const ContactWork> contacts, uint64_t key) {
   uint32_t low = 0, high = contacts.count;
   while (low < high) {
@@ -78,7 +78,7 @@ __attribute__((noinline)) void find_near(ImpactStage& stage, uint32_t slot) {
   });
 }
 
-/// Whether the bounds of two bodies overlap that may touch.
+/// Whether two bodies may touch and their bounds overlap.
 bool are_near(const ImpactStage& stage, uint32_t slot, uint32_t other) {
   return overlap(stage.bounds_of(slot), stage.bounds_of(other)) && may_collide(stage, slot, other);
 }
@@ -104,9 +104,9 @@ ImpactPair* find_impact(const ImpactStage& stage, uint64_t key) {
 }
 
 /// A lower bound, m, of the distance that a pair without contact had at the start of the tick. The contact points of a
-/// known pair were searched up to its speculative distance. The bounds of other pairs were disjoint, if one of the
-/// bodies moved; they include the contact margin. Nothing is known of two bodies that rested, and of two bodies whose
-/// contact may have been left out as a sliver.
+/// pair in `known.pairs` were searched up to its speculative distance. The bounds of any other pair were disjoint, and
+/// bounds include the contact margin. The result is 0, because nothing is known, if pairs or contacts were dropped, or
+/// if each of the two bodies rested or may have had a contact that was left out as a sliver.
 Real distance_without_contact(const ImpactStage& stage, uint64_t key) {
   const uint32_t low = pair_low(key), high = pair_high(key);
   const BodySweep &a = stage.sweep_of(low), &b = stage.sweep_of(high);
@@ -134,14 +134,14 @@ Real free_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const Contac
     clearance = k_zero;
     return k_zero;
   }
-  // A round body may be nearer than its contacts say. Their separation includes the distance that is gained by sliding
-  // past.
+  // A round body may be nearer than the separations of its contacts, which include the distance that is gained by
+  // sliding past.
   const bool round = is_curved(stage, pair_low(key)) || is_curved(stage, pair_high(key));
   if (least > scale_by_power(extent, -10)) {
     clearance = round ? k_zero : scale_by_power(least, -1);
     // If the solver has made a ball bounce, the ball touches at the end of the tick. The query would report an impact
     // within its tolerance, so the test starts one shrink depth deeper. Other shapes may collide at another point
-    // first.
+    // first, so their test starts at the surfaces.
     const bool bounces = is_ball(stage, pair_low(key)) || is_ball(stage, pair_high(key));
     return bounces && rebounds && stage.is_pushed(key) ? next_shrink_depth(extent, k_zero) : k_zero;
   }
@@ -208,8 +208,8 @@ DETENT_SHARED TickMotion motion_in_tick(const ImpactStage& stage, uint32_t slot,
 
 /// Whether the solver keeps a pair in contact apart in this tick. A contact point that is separated at the start of the
 /// tick must not become deeper than 1/1024 of the extent; the depth of a point that penetrates must not grow by more
-/// than that. Such a pair need not be tested. `closing`: upper bound of the relative motion in the tick, m. False if it
-/// is large, because parts of the shapes that are not in contact may then collide.
+/// than that. Such a pair need not be tested. `closing`: upper bound of the relative motion in the tick, m. False if
+/// `closing` is large, because parts of the shapes that are not in contact may then collide.
 bool are_kept_apart(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, const TickMotion& a,
                     const TickMotion& b, Real closing) {
   if (contacts.count == 0 || is_left_to_impact(contacts[0])) return false;
@@ -218,7 +218,7 @@ bool are_kept_apart(const ImpactStage& stage, uint64_t key, Span<const ContactWo
   for (const ContactWork& contact : contacts)
     least_points = contact.state.point_count < least_points ? contact.state.point_count : least_points;
   if (closing > scale_by_power(extent, least_points < 3 ? -3 : -2)) return false;
-  // Parts without contact are farther apart than this.
+  // Parts without contact can collide only if the pair closes by this distance.
   if (has_parts(stage.bodies.properties[pair_low(key)], stage.bodies.properties[pair_high(key)]) &&
       !(closing < distance_without_contact(stage, key)))
     return false;
@@ -236,13 +236,15 @@ bool are_kept_apart(const ImpactStage& stage, uint64_t key, Span<const ContactWo
 bool is_safe(ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Fraction time, Real clearance,
              const ImpactPair* entry) {
   const TickMotion a = motion_in_tick(stage, pair_low(key), time), b = motion_in_tick(stage, pair_high(key), time);
-  // The relative displacement changes linearly from now to the end of the tick.
+  // The relative displacement changes linearly from now to the end of the tick, so it is greatest at one of these
+  // times.
   const Real closing = max(length(b.until - a.until), length(b.displacement - a.displacement)) + a.swing + b.swing;
   if (stage.filters() && closing < clearance) {
     ++stage.report.skipped;
     return true;
   }
-  // The impulses of other impacts are propagated only to pairs that are tested and collide.
+  // A pair that has collided in this tick is tested although its contacts keep it apart, because the impulses of other
+  // impacts are propagated only to pairs that are tested and collide.
   const bool has_collided = entry != nullptr && entry->impacts != 0;
   if (has_collided || !are_kept_apart(stage, key, contacts, a, b, closing)) return false;
   ++stage.report.kept_apart;
@@ -258,7 +260,8 @@ void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> con
   Real clearance = k_zero;
   const Real shrink_depth = first_shrink_depth(stage, key, contacts, clearance);
   const Fraction start = 0.0;
-  // The sum of both bounds is cheap to compute, and mostly sufficient. No body was hit yet.
+  // The sum of both bounds is cheap to compute, and mostly sufficient. The bounds are valid because no body was hit
+  // yet.
   const auto bound = [&](uint32_t slot) {
     return is_at_rest(stage.sweep_of(slot)) ? k_zero : stage.path_of(slot).bound;
   };

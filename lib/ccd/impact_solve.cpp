@@ -13,8 +13,8 @@ namespace {
 
 constexpr int k_rounds_max = 64;  ///< rounds of propagating an impulse
 
-/// Takes the contact of the part whose normal is nearest to that of the impact. If the impact has no normal, takes the
-/// deepest contact.
+/// For a pair with several contacts, takes the contact whose normal is nearest to the normal of the impact. If the
+/// impact has no normal, takes the deepest contact.
 __attribute__((noinline)) void find_part_points(const ImpactStage& stage, const ImpactPair& pair,
                                                 const CollisionBody& a, const CollisionBody& b,
                                                 const ContactMargins& margin, ContactGeometry& geometry) {
@@ -36,10 +36,10 @@ __attribute__((noinline)) void find_part_points(const ImpactStage& stage, const 
   geometry.seam = contacts.seam;
 }
 
-/// Finds the contact points of the bodies themselves. Returns no points if the contact normal is 90 degrees or more
-/// from the normal of the impact: deep within a thin body, the direction of least penetration may lead through it.
-/// Marks the contact as a seam if the overlap is no deeper than that of resting bodies, and either more than two points
-/// touch or the two normals enclose an angle between 60 and 120 degrees.
+/// Finds the contact points of the bodies' full shapes, not of their shrunken cores. Returns no points if the contact
+/// normal is 90 degrees or more from the normal of the impact: deep within a thin body, the direction of least
+/// penetration may lead through the body. Marks the contact as a seam if the overlap is no deeper than that of resting
+/// bodies, and either more than two points touch or the two normals enclose an angle between 60 and 120 degrees.
 void find_points(const ImpactStage& stage, const ImpactPair& pair, const BodyPose& pose_a, const BodyPose& pose_b,
                  ContactGeometry& geometry) {
   const BodyProperties &a = stage.bodies.properties[pair_low(pair.key)],
@@ -79,7 +79,8 @@ void take_point(const ImpactStage& stage, const ImpactPair& pair, const BodyPose
 Position point_of(const ContactGeometry& geometry, const BodyPose& pose_a, const BodyPose& pose_b,
                   const BodyProperties& a, const BodyProperties& b) {
   static constexpr Unit k_share[k_manifold_points_max] = {1.0, 0.5, 1.0 / 3.0, 0.25};
-  // A terrain is large, so its arms are coarse; the points on a half-space have no arms. Then B's arms are used.
+  // If A is a terrain or a half-space, B's arms are used: a terrain is large, so its arms are coarse, and the points on
+  // a half-space have no arms.
   const bool by_b = is_ground(a);
   const int exponent = by_b ? b.size_exponent : a.size_exponent;
   Vec3<Real> sum = k_zero_vector;

@@ -17,7 +17,7 @@ inline namespace DETENT_NAMESPACE {
 // ImpactPair::next: the next event of a pair.
 inline constexpr uint8_t k_next_none = 0;
 inline constexpr uint8_t k_next_impact = 1;
-inline constexpr uint8_t k_next_undecided = 2;  ///< the pair is clear up to that time
+inline constexpr uint8_t k_next_undecided = 2;  ///< the pair is clear up to ImpactPair::time
 /// The pair is tested again; if it has separated, at a smaller shrink depth.
 inline constexpr uint8_t k_next_test = 3;
 
@@ -32,7 +32,7 @@ inline constexpr uint32_t k_mark_sliver = BodySweep::k_mark_sliver;
 static_assert(k_mark_moved < k_mark_sliver && k_mark_sliver < k_mark_jointed);
 
 #if DETENT_TASKS
-/// The numbers of a report that threads count on their own.
+/// The counts of a report that each thread keeps for itself; their sums are the counts of the tick.
 inline constexpr uint32_t ImpactReport::*k_impact_numbers[] = {
     &ImpactReport::impacts, &ImpactReport::undecided, &ImpactReport::overlaps_left, &ImpactReport::bodies_stopped,
     &ImpactReport::tests,   &ImpactReport::skipped,   &ImpactReport::kept_apart,    &ImpactReport::clamped};
@@ -40,7 +40,7 @@ inline constexpr uint32_t ImpactReport::*k_impact_numbers[] = {
 /// The entries in `impacts` at the start of the tick, while several threads make them.
 struct FoundPairs {
   Span<ImpactPair> pairs;
-  uint32_t count = 0;  ///< more than there is room for: the pairs must then be searched in order
+  uint32_t count = 0;  ///< if it exceeds the room, the pairs must be searched in order
 
   ImpactPair* take() {
     const uint32_t place = Team::take(count, 1);
@@ -88,9 +88,9 @@ struct ImpactStage {
   const BitSet& candidates() const { return warp == nullptr ? bodies.candidates : warp->part.candidates; }
   /// The bodies that may have k_mark_changed.
   const BitSet& changeable() const { return warp == nullptr ? bodies.active : warp->part.own; }
-  /// A group has copies of all bodies of its entries.
+  /// Whether the body may have entries. In a group, only bodies that the group has copied have entries.
   bool may_have_entries(uint32_t slot) const { return warp == nullptr || warp->body(slot) != nullptr; }
-  /// Whether a group has met what only the global order can do. Its result is discarded.
+  /// Whether a group has met a case that only the global order can handle. The group's result is then discarded.
   bool gives_up() const { return warp != nullptr && warp->has_failed(); }
 #else
   static constexpr const void* found = nullptr;
@@ -149,13 +149,13 @@ struct ImpactStage {
   void change(uint32_t slot);
   /// Stops the body at `time` until the tick ends. Does nothing if the body is not dynamic or has stopped before.
   void stop(uint32_t slot, Fraction time);
-  /// Moves the angular momentum of the bodies that were hit to the end of the tick.
+  /// Carries the angular momentum of the bodies that were hit on to the end of the tick (carried_angular_momentum()).
   void finish_momentum();
 
   // impact_search.cpp
 
-  /// Finds the first impact of every pair that may collide. Sets the budget of work for the rest of the tick from the
-  /// number of moving bodies and the number of pairs that were tested or skipped.
+  /// Finds the first impact of every pair that may collide. Sets the budget of work for the rest of the tick
+  /// (k_impact_work_times).
   void find_first();
   /// Finds when a pair collides next, and stores its next event if there is one. Stops both bodies if there is no room
   /// for an impact, or if the pair would pass through. `shrink_depth`: the first shrink depth, m. `entry`: the pair's
@@ -169,8 +169,8 @@ struct ImpactStage {
 #endif
   /// Adds an entry to the lists of its dynamic bodies. `place`: its index + 1.
   void link(ImpactPair& entry, uint32_t place) const;
-  /// As the first part of find_first(): the pairs in `known`. Several threads search. Returns false, and changes
-  /// nothing, if the pairs must be searched in order.
+  /// Does the first part of find_first(), the tests of the pairs in `known`, by several threads. Returns false, and
+  /// changes nothing, if the pairs must be tested in order by one thread.
   bool find_first_shared();
 #if DETENT_TASKS
   /// Tests the new sweep of a body against another body, if their bounds overlap and they may touch.
@@ -188,8 +188,8 @@ struct ImpactStage {
   /// unchanged, if the bodies collide at a seam and the shrink depth of the pair was not increased yet.
   bool resolve(ImpactPair& pair, bool undecided, const BodyPose& pose_a, const BodyPose& pose_b);
   /// Propagates the impulse of the pair `first` to the pairs that share a body with it and have collided in this tick,
-  /// and back, until no pair approaches, in a limited number of rounds. Without this, a body between two others would
-  /// be hit back and forth without end. The pairs are processed in the order of their keys.
+  /// and back, until no pair approaches or the limit of rounds is reached. Without this, a body between two others
+  /// would be hit back and forth without end. The pairs are processed in the order of their keys.
   void pass_on(const ImpactPair& first, Fraction time);
 };
 

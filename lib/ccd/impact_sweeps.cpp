@@ -63,7 +63,8 @@ void begin_sweep(ImpactStage& stage, uint32_t slot) {
   stage.probe->segments[at] = {slot, 0, sweep.from, pose, rest.displacement, rest.rotation_vector};
 }
 
-/// Adds the segment of the body's sweep that ends at `time` to its path. `first`: it is the body's first segment.
+/// Adds the segment of the body's sweep that ends at `time` to its path. `first`: whether this is the body's first
+/// segment.
 void end_segment(const BodyProperties& properties, const BodySweep& sweep, Fraction time, bool first,
                  ImpactPath& path) {
   if (first) path = {k_zero_vector, k_zero_vector, k_zero};
@@ -123,7 +124,8 @@ void ImpactStage::move_to(uint32_t slot, Fraction time) {
   BodySweep& sweep = sweep_of(slot);
   const bool hit = (sweep.marks & k_mark_hit) != 0;
   sweep.marks |= k_mark_hit;
-  // The solver's angular momentum is that at the end of the tick. After a hit it is that at the body's current pose.
+  // Before the first hit, the angular momentum is the solver's, which belongs to the rotation at the end of the tick.
+  // After a hit, it belongs to the body's current rotation.
   const Quat from = hit ? pose_of(slot).rotation : end_rotation(*this, slot);
   end_segment(bodies.properties[slot], sweep, time, !hit, path_of(slot));
   if (time > sweep.from) {

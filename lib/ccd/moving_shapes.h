@@ -14,8 +14,8 @@ class MovingShapes {
 
   /// As time_of_impact(), with less work for shapes that stay apart. Both shapes must be in the frames of their bodies.
   /// `axis`: a direction from A to B that may separate the shapes, or zero; it saves work and does not change the
-  /// outcome. `until`: an impact after this fraction of the motion may count as none. Returns false if a value is out
-  /// of range.
+  /// outcome. `until`: an impact after this fraction of the motion may be reported as none. Returns false if a value is
+  /// out of range.
   bool find(const Convex& a, const Convex& b, const Vec3<Unit>& axis, Fraction until, TimeOfImpact& impact);
 
  private:

@@ -11,7 +11,7 @@ inline namespace DETENT_NAMESPACE {
 class MovingTree {
  public:
   bool is_made() const { return parents_.count != 0; }
-  /// To be called before each search. Makes the tree when the searches so far have cost as much as that.
+  /// To be called before each search. Makes the tree when the searches so far have cost about as much as making it.
   void prepare(BitSet active, Span<const Bounds> bounds, SpareMemory& spare) {
     if (++searches_ == k_searches_max) make(active, bounds, spare);
   }
@@ -36,7 +36,7 @@ class MovingTree {
   }
 
  private:
-  /// A tree is made in about the time of so many visits of the whole list.
+  /// Making a tree takes about as long as this number of visits of the whole list.
   static constexpr uint32_t k_searches_max = 48;
 
   uint32_t searches_ = 0;

@@ -9,7 +9,7 @@ inline namespace DETENT_NAMESPACE {
 /// spent. Nothing is given back within a tick.
 struct SpareMemory {
   Span<uint64_t> words;
-  uint32_t taken = 0;  ///< words; more than there are if a piece did not fit
+  uint32_t taken = 0;  ///< words taken so far
 
   /// A piece for `count` elements; its elements are not initialised. An empty span if there is too little memory.
   template <class T>

@@ -40,8 +40,8 @@ struct TerrainSearch {
     return {centre.x - t.corner[0].x * step, centre.y - t.corner[0].y * step, centre.z - t.corner[0].z * step};
   }
 
-  /// How far the shape extends along a direction in the terrain's axes, at any time, from the centre of its body on its
-  /// path. An upper bound, 2^-46 m.
+  /// An upper bound, 2^-46 m, of how far the shape extends from the centre of its body along `direction` (terrain's
+  /// axes), at any time of the sweep.
   int64_t extent_along(const Vec32& direction) const {
     const Vec32 local = rotate_inverse(rotation, direction);
     const Vec32 farthest = local_support(convex, hull, local, 0).local;
@@ -52,7 +52,7 @@ struct TerrainSearch {
     return reach < radius ? reach : radius;
   }
 
-  /// Whether the shape stays on one side of the plane.
+  /// Whether the shape stays on one side of the triangle's plane during its sweep.
   bool passes_by(const TerrainTriangle& t, const Vec32& normal) const {
     const int64_t start = height(t, normal), end = start + dot(displacement, normal).round_shift(30);
     const int64_t extent = extent_along(start > 0 ? negate(normal) : normal);
@@ -130,7 +130,7 @@ struct TerrainSearch {
       const Real swept = min(length(motion.displacement - ground_motion.displacement), k_far);
       margin = saturated_sum(margin, saturated_sum(raw_length(angle * distance), raw_length(angle * swept)));
     }
-    constexpr int64_t k_all = int64_t{1} << 61;  // no coordinate of a terrain is more than half of it
+    constexpr int64_t k_all = int64_t{1} << 61;  // terrain coordinates are at most half of this
     if (margin >= k_all - radius) {
       visit({-k_all, -k_all, -k_all}, {k_all, k_all, k_all});
       return;

@@ -2,14 +2,15 @@
 #include "broad_phase/bounds_integer.h"
 #include "ccd/impact_stage.h"
 
-/// Processes impacts in groups, at the same time, and each group to the end of the tick.
+/// Processes the impacts of a tick in groups: several groups at the same time, and each group to the end of the tick.
 ///
-/// A group is optimistic: it takes all bodies but its own as they were at the start. A body becomes its own when the
-/// group makes an entry with it; the group then changes a copy. When all groups have ended, two of them conflict if
-/// they have copies of the same body, or if a test of a body of one with a body of the other, made as in the global
-/// order, finds an event. Only bodies whose sweeps overlap by their bounds are tested, so all tests that the groups
-/// missed, or made with a state of the other body that was not that of the global order, are compared. Those that find
-/// no event only correct the counts (PairTests). So groups without a conflict did what happens in the global order.
+/// A group is optimistic: it takes all bodies but its own as they were when the groups started. A body becomes the
+/// group's own when the group makes an entry with it; the group then changes a copy of the body. When all groups have
+/// ended, they are compared. Two groups conflict if they have copies of the same body. They also conflict if a body of
+/// one group and a body of the other have an event when their tests are repeated with the states that both bodies have
+/// in the global order. The groups missed these tests, or made them with another state of the other body. Only bodies
+/// whose sweeps overlap by their bounds need to be compared. Repeated tests that find no event only correct the counts
+/// (PairTests). So groups without a conflict have the result of the global order.
 ///
 /// Groups that conflict are rolled back: their copies are discarded, and they are run again as one group. The number
 /// of groups falls each time.
@@ -72,7 +73,7 @@ bool ImpactStage::make_room_for(uint64_t key) {
 namespace {
 
 constexpr uint32_t k_warp_parts_max = 64;
-/// Rounds after which the global order is used. Each round costs at most as much as that.
+/// Rounds after which the global order is used. Each round costs at most as much as the global order.
 constexpr uint32_t k_warp_rounds_max = 4;
 
 /// The bounds of all sweeps of a changed body.
@@ -88,7 +89,8 @@ struct WarpPlace {
   uint32_t group, output;
 };
 
-/// The tests of two bodies of different groups. Each group made its tests with the other body as it was at the start.
+/// The tests of two bodies of different groups. Each group made its tests with the other group's body as it was when
+/// the groups started.
 class PairTests {
  public:
   PairTests(const ImpactStage& start, const WarpPart& part) : stage_(start), part_(part) {
@@ -105,8 +107,8 @@ class PairTests {
   /// What the tests would have counted if each group had known the other body, minus what they counted.
   ImpactReport correction = {};
 
-  /// Whether the tests find no event either if each is made with both bodies as they are at that time in the global
-  /// order. If so, adds to the correction.
+  /// Whether the tests still find no event if each is made with the states that both bodies have at its time in the
+  /// global order. If so, adds to `correction`.
   bool agree(const WarpGroup& group_a, const WarpBody& a, const WarpGroup& group_b, const WarpBody& b) {
     if ((a.moved | b.moved | a.moved_untested | b.moved_untested) != 0) return false;
     const uint32_t slots[2] = {a.slot, b.slot};
@@ -305,7 +307,7 @@ class TimeWarp {
     b = group_leader(b);
     groups_[a > b ? a : b].leader = a > b ? b : a;
   }
-  /// Whether the tests of one body may have read the other, of another group, after that group changed it.
+  /// Whether a test of one body may depend on changes that another group made to the other body.
   bool may_conflict(const WarpBody& a, const WarpBody& b) const {
     const Span<Bounds> start = stage_.bodies.bounds;
     return overlap(a.reach, b.reach) || overlap(a.reach, start[b.slot]) || overlap(b.reach, start[a.slot]);
@@ -384,7 +386,7 @@ class TimeWarp {
       if (group.leader == i || group.start_count == 0) continue;
       WarpGroup& leader = groups_[group_leader(i)];
       if (leader.body_count != 0) {
-        leader.body_count = 0;  // it is in the list
+        leader.body_count = 0;  // marks it as listed
         to_run_.data[to_run_.count++] = leader.leader;
         ++count_.rollbacks;
       }
@@ -397,7 +399,7 @@ class TimeWarp {
   }
 
   /// Gives the bodies and the outputs of all groups to the stage. Returns false, and changes nothing, if the groups
-  /// together used more than there is.
+  /// together used more work, entries or memory than there is.
   bool commit() {
     uint32_t entries = 0, output_count = 0;
     uint64_t work = 0;
@@ -460,7 +462,7 @@ class TimeWarp {
   Span<uint32_t> to_run_;  ///< groups
   Span<WarpRange> ranges_;
   uint32_t range_room_ = 0;
-  Coord Position::*axis_ = nullptr;  ///< that along which `ranges_` is sorted
+  Coord Position::*axis_ = nullptr;  ///< the axis along which `ranges_` is sorted
   ImpactReport correction_ = {};
   Span<WarpPart> parts_;
   uint32_t part_count_ = 0;

@@ -7,7 +7,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The part of a body that tests with other bodies read.
+/// The data of a body that is read when the body is tested against others.
 struct WarpSweep {
   BodyPose pose;
   BodySweep sweep;
@@ -25,7 +25,7 @@ struct WarpBody : WarpSweep {
   Bounds reach;             ///< contains the bounds of the sweeps that were tested; k_nowhere if there are none
   uint32_t changed;         ///< 0: the group has not changed the body
   uint32_t moved;           ///< 1: the group has moved the body since its last test
-  uint32_t moved_untested;  ///< 1: the body had states with which no test was recorded
+  uint32_t moved_untested;  ///< 1: for some state of the body no test was recorded
   Fraction move_time;       ///< of the last move
 
   void move(Fraction time) {
@@ -36,15 +36,15 @@ struct WarpBody : WarpSweep {
 };
 
 #if DETENT_TASKS
-/// An output whose place among those of all groups matters: a hit, or the time that a stopped body loses.
+/// An output whose order among the outputs of all groups matters: a hit, or the time that a stopped body loses.
 struct WarpOutput {
-  /// Among the group's events at `hit.time` up to the one with this output, the highest key: the event cannot come
-  /// before that one in the global order.
+  /// The highest key of the group's events at `hit.time`, up to and including the event with this output. In the global
+  /// order, this event cannot come before the event with that key.
   uint64_t order;
   ImpactHit hit;  ///< of a stopped body: the key is 0 and `approach` is the lost fraction of the tick
 };
 
-/// A body whose new sweep a group tested against all bodies near it.
+/// A test of a body's new sweep, by a group, against all bodies near it.
 struct WarpTest : WarpSweep {
   Fraction time;
   uint32_t next;  ///< index + 1 of the body's next test; 0: none
@@ -54,10 +54,10 @@ struct WarpTest : WarpSweep {
 struct WarpGroup {
   static constexpr uint32_t k_none = UINT32_MAX;
 
-  uint32_t leader = 0;  ///< the group that it was merged into; its own index while it exists
+  uint32_t leader = 0;  ///< index of the group into which this one was merged; its own if it was not
   // Its entries at the start: a list of indices in ImpactStage::impacts.
   uint32_t first_start = k_none, last_start = k_none, start_count = 0;
-  // The result of its last run. The rest of each span is room.
+  // The result of its last run. The spans may be longer than these counts.
   Span<WarpBody> bodies;
   Span<ImpactPair> entries;
   Span<WarpOutput> outputs;
@@ -103,7 +103,7 @@ struct WarpRun {
   const WarpPart& part;
   const ImpactBodies& bodies;  ///< at the start; they do not change while groups run
   SpareMemory& spare;
-  uint32_t& failed;  ///< not 0: some group met what only the global order can do
+  uint32_t& failed;  ///< not 0: some group met a case that only the global order can handle
   Fraction time = 0.0;
   uint64_t order = 0;  ///< as WarpOutput::order, of the present event
 

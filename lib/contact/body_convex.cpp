@@ -18,13 +18,13 @@ int32_t raw_from_unit(Unit value) {
 }
 #endif
 
-/// Bound, in 2^-30, on the error by which the stored bounding radius can be too small. The radius and the sizes are
-/// rounded.
+/// The most by which the stored bounding radius can be too small, in 2^-30 of the unit of length. The radius and the
+/// sizes are each rounded.
 constexpr int32_t k_bound_slack = sizeof(Unit) == 4 && !DETENT_FIXED ? 1 << 8 : 4;
 
 /// Sets the sizes, the core radius and the unit of length of `convex`. `size` and the core radius `bound` are in 2^-30
-/// of 2^exponent m. The new unit is the smallest one, but at least 2^k_size_exponent_min m, that exceeds the core
-/// radius.
+/// of 2^exponent m. The unit becomes the smallest power of two, in m, that exceeds the core radius, but at least
+/// 2^k_size_exponent_min m.
 void set_core(const int32_t (&size)[3], int32_t bound, int32_t exponent, Convex& convex) {
   int lift = 30 - bit_length_32(static_cast<uint32_t>(bound));
   if (lift > exponent - k_size_exponent_min) lift = exponent - k_size_exponent_min;

@@ -12,7 +12,8 @@ namespace {
 
 ShapeType type_of(const CollisionBody& body) { return static_cast<ShapeType>(body.properties.shape); }
 
-/// The rank of a shape. The pair functions take the shape of lower rank as A: half-space, box, round shape.
+/// The rank of a shape. Half-spaces rank lowest, then boxes, then round shapes. The pair functions take the shape of
+/// lower rank as A.
 int rank_of(ShapeType type) { return type == ShapeType::half_space ? 0 : type == ShapeType::box ? 1 : 2; }
 
 /// Whether the specialised pair functions accept the shape: sphere, capsule, half-space or unrounded box.
@@ -29,8 +30,8 @@ PairShape shape_in(const CollisionBody& body, int exponent) {
           scale_by_power(body.properties.size, body.properties.size_exponent - exponent)};
 }
 
-/// Whether the bounding spheres of two bodies are farther apart than `margin`, m. False if this is not certain, and
-/// always in builds for size: the test only saves time.
+/// Whether the bounding spheres of two bodies are farther apart than `margin`, m. The test only saves time: it returns
+/// false if the answer is not certain, for half-spaces, and in all builds optimised for size.
 bool are_spheres_apart([[maybe_unused]] const CollisionBody& a, [[maybe_unused]] const CollisionBody& b,
                        [[maybe_unused]] Real margin) {
 #if defined(__OPTIMIZE_SIZE__)

@@ -10,11 +10,11 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 struct ContactGeometryPoint {
-  /// From each centre of mass to the point midway between the surfaces, in the unit of length of that body. Zero for a
-  /// half-space.
+  /// From the centre of mass of A (`arm_a`) or B (`arm_b`) to the point midway between the surfaces, in the unit of
+  /// length of A or B. Zero for a half-space.
   Vec3<Unit> arm_a, arm_b;
   Real separation;    ///< along the normal, m; negative when overlapping
-  uint32_t feature;   ///< names the pair of touching features; distinct, constant while they touch, never 0
+  uint32_t feature;   ///< name of the touching pair of features: distinct, the same while they touch, never 0
   uint32_t part = 0;  ///< for compounds: 2^16 (child number in A) + (child number in B), both counted from 1
 };
 
@@ -22,9 +22,9 @@ struct ContactGeometryPoint {
 struct ContactMargins {
   Real distance;    ///< contact margin: the greatest separation of a contact point, m
   Real sunk = 0.0;  ///< typical penetration of resting bodies, m
-  /// Whether contacts that would stop a body as it slides over the seam between two other bodies are changed
-  /// (contact_seam.h): slivers are left out, and an edge that is level with a face within `sunk` gets the normal of
-  /// that face.
+  /// If true, a body that slides over the seam between two other bodies is not stopped there (contact_seam.h): contacts
+  /// that are slivers are left out, and a contact at an edge that is level with a face, within `sunk`, gets the normal
+  /// of that face.
   bool smooth_seams = false;
 
   ContactMargins(Real within) : distance(within) {}
@@ -55,9 +55,9 @@ struct CollisionBody {
   const Matrix3& rotation;
 };
 
-/// Finds the contact points of a pair whose separation is at most `margin.distance`, m. The result is empty if there
-/// are none. Spheres, capsules, unrounded boxes and half-spaces have specialised functions for each pair of them; all
-/// other pairs go through contact_points(). `features` must include those of both shapes, and `rounding` if a shape is
+/// Finds the contact points of a pair. Points with a separation above `margin.distance`, m, are left out; the result
+/// may be empty. Pairs of spheres, capsules, unrounded boxes and half-spaces have specialised functions; all other
+/// pairs go through contact_points(). `features` must include those of both shapes, and `rounding` if a shape is
 /// rounded. Precision (fixed point; tests/unit/contact): 2^-26 of the larger body's bounding diameter. Against a
 /// half-space: 2^-26 of the other body's size and 2^-31 of its distance from the plane's origin.
 void collide(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin, ContactGeometry& contact,

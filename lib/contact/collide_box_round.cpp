@@ -7,9 +7,10 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Unit k_meeting = 0x1p-24;  // a core closer to the box than this gives no reliable direction
+constexpr Unit k_meeting = 0x1p-24;  // a core closer to the box than this (pair's unit) gives no reliable direction
 // A normal within 2^-13 rad of a face normal is replaced by the face normal. This changes lengths by a factor of at
-// most 1 + 2^-27. A capsule that lies across the rim of a face then keeps both its points in spite of jitter.
+// most 1 + 2^-27. The replacement lets a capsule that lies across the rim of a face keep both its points in spite of
+// jitter.
 constexpr int k_upright_power = -13;
 
 struct Axes {
@@ -39,9 +40,9 @@ struct BoxAndSegment {
   Unit slope(Unit along) const { return dot(vector_of(direction), vector_of(excess(along))); }
 };
 
-/// Returns the position along the segment of its point closest to the box. slope() changes its sign there, or the point
-/// is an end. The function finds the two neighbouring crossings of face planes between which the sign changes, and
-/// interpolates once between them. If the slope is zero over an interval, it returns the middle of that interval.
+/// Returns the position along the segment of its point closest to the box. At this point, slope() changes its sign, or
+/// the segment ends. The function finds the two neighbouring crossings of face planes between which the sign changes,
+/// and interpolates once between them. If the slope is zero over an interval, it returns the middle of that interval.
 Unit closest_along(const BoxAndSegment& pair) {
   const Unit zero = 0.0;
   const Unit limit = pair.half_length;
@@ -85,7 +86,8 @@ struct BoxContact {
   int face;     ///< axis of the face to which the normal belongs, or -1
   Unit along;   ///< position of the contact point along the segment; used if `face` is -1
 
-  /// Sets the face perpendicular to `axis`, on the side to which the normal points, and its normal.
+  /// Moves the contact to the face that is perpendicular to `axis`, on the side to which the normal points. The normal
+  /// becomes the normal of that face.
   void set_face(int axis) {
     const Unit side = normal.v[axis] < Unit(0.0) ? Unit(-1.0) : Unit(1.0);
     face = axis;
@@ -167,7 +169,7 @@ int edge_of(const BoxContact& contact) {
 bool is_along(const BoxAndSegment& pair, int edge) { return abs(pair.direction.v[edge]) > Unit(1.0 - 0x1p-11); }
 
 /// Whether the normal of a contact at an edge rotates as the shapes slide past each other. It does not rotate if the
-/// segment, between its ends, crosses the edge.
+/// segment crosses the edge at a point between the segment's ends.
 __attribute__((noinline)) bool turns_at_edge(const BoxAndSegment& pair, const BoxContact& contact) {
   if (contact.along >= pair.half_length || contact.along <= -pair.half_length) return true;
   const int edge = edge_of(contact);
@@ -191,8 +193,8 @@ __attribute__((noinline)) bool clip_to_edge(const BoxAndSegment& pair, const Box
   return low < high;
 }
 
-/// The test of find_level_face() (contact_seam.h) for a contact at an edge of the box. If it succeeds, the contact gets
-/// the face whose normal is nearest.
+/// Applies the test of find_level_face() (contact_seam.h) to a contact at an edge of the box. If the test succeeds,
+/// moves the contact to the face whose normal is nearest, and returns true.
 __attribute__((noinline)) bool find_level_box_face(const BoxAndSegment& pair, Unit radius, Unit sunk,
                                                    BoxContact& contact) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -207,8 +209,8 @@ __attribute__((noinline)) bool find_level_box_face(const BoxAndSegment& pair, Un
 }
 
 /// Handles a capsule that crosses an edge of the box. If the normal of a face is within 2^-3 rad of the contact normal,
-/// and a part of the capsule's segment lies over this face, the contact is moved to the face. Otherwise the capsule would
-/// touch at one end in one tick and at the other end in the next tick. Returns false if there is no such face.
+/// and a part of the capsule's segment lies over this face, the contact is moved to the face. Without this, the capsule
+/// could touch at one end in one tick and at the other end in the next tick. Returns false if there is no such face.
 __attribute__((noinline)) bool find_leaning_box_face(const BoxAndSegment& pair, BoxContact& contact) {
   constexpr Unit k_leaning_cosine = 1.0 - 0x1p-7;  // 2^-3 rad, as for faces of hulls
   for (int axis = 0; axis < 3; ++axis) {

@@ -77,7 +77,8 @@ bool edge_separation(const AxisTable& t, int i, int j, Unit& separation) {
   return true;
 }
 
-/// Returns `preference` of find_face_axis() and find_axis(): 1/64 of the least half extent of both boxes.
+/// Returns the argument `preference` of find_face_axis() and find_axis(): 1/64 of the least half extent of the two
+/// boxes.
 Unit preference_of(const HalfExtents& a, const HalfExtents& b) {
   Unit smallest = a.v[0];
   for (int i = 0; i < 3; ++i) smallest = min(smallest, min(a.v[i], b.v[i]));
@@ -111,8 +112,8 @@ bool find_face_axis(const AxisTable& table, Unit margin, Unit preference, FaceAx
   return true;
 }
 
-/// Returns the cosine, up to its sign, of the angle between a separating axis and the axis of A's face i. B's face j
-/// must lie against A's face i.
+/// Returns the cosine, up to its sign, of the angle between a separating axis and the axis of A's face i. Range: B's
+/// face j is nearly parallel to A's face i.
 Unit cosine_with(const AxisTable& table, const SeparatingAxis& axis, int i, int j) {
   if (axis.kind == AxisKind::face_a) return axis.i == i ? Unit(1.0) : table.cosine[axis.i][j];
   if (axis.kind == AxisKind::face_b) return axis.j == j ? Unit(1.0) : table.cosine[i][axis.j];
@@ -166,8 +167,8 @@ constexpr uint32_t k_face_vertices_max = 8;
 
 uint32_t crossing_label(uint32_t edge_label, uint32_t side) {
   if (edge_label < 4) return 4 + 4 * edge_label + side;
-  // The edge is a side of the reference face. It meets `side` in a corner: one of them bounds u (0, 1), the other v (2,
-  // 3).
+  // The edge is a side of the reference face and meets `side` in a corner. One of the two sides bounds u (0 or 1), the
+  // other bounds v (2 or 3).
   const uint32_t other = edge_label - 4;
   const uint32_t u_side = side < 2 ? side : other, v_side = side < 2 ? other : side;
   return 20 + (u_side & 1) + 2 * (v_side & 1);
@@ -206,7 +207,8 @@ int64_t raw_from(Unit value) {
 #endif
 }
 
-/// Chooses at most four vertices for the contact. `chosen`: their indices, ascending. Returns their number.
+/// Chooses at most four vertices for the contact and returns their number. `drop`: as in AreaChoice. `chosen`: the
+/// indices of the chosen vertices, ascending.
 uint32_t choose_corners(const FaceVertex* polygon, uint32_t count, ManifoldReduction reduction, Unit drop,
                         uint32_t chosen[k_manifold_points_max]) {
   if (count <= k_manifold_points_max) {
@@ -230,7 +232,8 @@ uint32_t choose_corners(const FaceVertex* polygon, uint32_t count, ManifoldReduc
 
 Unit sign_of(Unit value) { return value < Unit(0.0) ? Unit(-1.0) : Unit(1.0); }
 
-/// Finds the contact of the face of `reference` that is perpendicular to its axis `face` with the box `incident`.
+/// Finds the contact of the box `incident` with a face of the box `reference`: the face that is perpendicular to axis
+/// `face` of `reference`, on the side of `incident`.
 __attribute__((noinline)) void collide_face(const PairShape& reference, const PairShape& incident, int face,
                                             bool reference_is_a, const PairFrame& frame, PairManifold& manifold) {
   const HalfExtents half = half_of(reference.size), other = half_of(incident.size);

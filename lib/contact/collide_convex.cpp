@@ -25,8 +25,8 @@ void add_points(const CollisionBody& a, const CollisionBody& b, const ContactMan
 }
 
 /// Finds the contact of a half-space and a convex shape. The plane's origin may be too far away for contact_points().
-/// It is therefore moved to the point of the plane nearest to the body. Rounding this point to coordinates changes the
-/// distance by `height_error`, which is added back to the separations.
+/// The origin is therefore moved to the point of the plane that is nearest to the body. Rounding this point to
+/// coordinates changes the body's height above the plane by `height_error`, which is added back to the separations.
 Status meet_half_space(const CollisionBody& plane, const CollisionBody& body, const Convex& convex, bool plane_is_a,
                        Real margin, ManifoldReduction reduction, ContactManifold& manifold) {
   const Vec3<Unit>& up = plane.rotation.column[1];

@@ -45,7 +45,7 @@ struct Collector {
   void add(const Vec3<Unit>& offset, uint32_t feature) {
     const Real separation = height + real_from_unit(dot(normal, offset), exponent);
     if (separation > margin) return;
-    // Clamps the depth for the arm only: a body far below the plane is still in contact.
+    // Clamps the depth for the arm only. The separation is not clamped: a body far below the plane is still in contact.
     const Real unit = real_from_unit(Unit(1.0), exponent);
     const Unit half = unit_from_real(scale_by_power(max(separation, -unit), -1), exponent);
     contact.point[contact.count++] = {{0.0, 0.0, 0.0}, arm_of_point(offset - normal * half, 0), separation, feature};

@@ -6,9 +6,9 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Returns a feature name that does not depend on which triangle is touched. For a contact on the triangle's face, it
-/// is the feature of the shape alone. For a corner or edge of the triangle, it also contains the positions of the
-/// corners. `corner`: TerrainTouch::corner_name.
+/// Returns a feature name that does not depend on which triangle is touched. For a contact on the triangle's face, the
+/// name consists of the shape's feature alone. For a contact at a corner or edge of the triangle, the name also
+/// contains a hash of the positions of the corners. `corner`: TerrainTouch::corner_name.
 uint32_t feature_of(uint32_t feature, const uint32_t (&corner)[3]) {
   const uint32_t kind = feature >> 10 & 3, index = feature & 0x3ff, kept = feature & 0xfffc00u;
   if (kind == static_cast<uint32_t>(FeatureType::face)) return kept;

@@ -6,7 +6,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-// Limit of 1 - cos^2. Two capsules closer to parallel than 3.6 degrees touch along a line.
+// Limit of sin^2 of the angle between two capsules. Capsules closer to parallel than 3.6 degrees touch along a line.
 constexpr Unit k_parallel = 0x1p-8;
 
 Segment core(const PairShape& shape) {
@@ -64,7 +64,7 @@ void collide_round(const PairFrame& frame, PairManifold& manifold) {
       return;
     }
   }
-  // If both contact points lie between the ends of their segments, the segments cross and the normal does not rotate.
+  // If both closest points lie between the ends of their segments, the segments cross and the normal does not rotate.
   const auto is_end = [](Unit along, const Segment& of) { return along >= of.half_length || along <= -of.half_length; };
   manifold.turns = is_end(along_a, a) || is_end(along_b, b);
   add(along_a, along_b, 3);

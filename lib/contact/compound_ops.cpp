@@ -67,7 +67,8 @@ Vec64 raw_offset(const Vec3<Unit>& arm, int32_t exponent, bool& known) {
   return raw;
 }
 
-/// Returns the least half thickness of a child of either body, 2^-46 m. A body that is not a compound does not count.
+/// Returns the least half thickness of all children of the two bodies, 2^-46 m. A body that is not a compound has no
+/// children.
 int64_t half_thickness_of(const BodyProperties& a, const BodyProperties& b) {
   const auto own = [](const BodyProperties& properties) {
     return is_compound(properties) ? raw_size(properties.rounding, properties.size_exponent) : INT64_MAX;
@@ -189,7 +190,7 @@ void ConvexParts::place(uint32_t i, Vec64& middle, Vec64& half) const {
     return;
   }
   const ChildBox box = child_box(compound_.child(i));
-  const int shift = k_metre_bits - 31 + compound_.exponent();  // of twice the coordinate; 1 to 30
+  const int shift = k_metre_bits - 31 + compound_.exponent();  // from twice a coordinate to 2^-46 m; 1 to 30
   const auto raw = [shift](int64_t twice) { return twice * (int64_t{1} << shift); };
   const Vec32 &low = box.low, &high = box.high;
   middle = {raw(int64_t{low.x} + high.x), raw(int64_t{low.y} + high.y), raw(int64_t{low.z} + high.z)};

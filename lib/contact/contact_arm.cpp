@@ -6,7 +6,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Clamps the length of an arm to k_arm_max. Its components are already clamped.
+/// Clamps the length of an arm to k_arm_max. Range: each component is already clamped to +-k_arm_max.
 Vec3<Unit> clamped_arm(const Vec3<Unit>& arm) {
   constexpr Unit k_surely_short = 0.7216;  // k_arm_max / sqrt(3): an arm with smaller components is within the limit
   if (max(abs(arm.x), max(abs(arm.y), abs(arm.z))) < k_surely_short) return arm;

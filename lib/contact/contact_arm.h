@@ -5,9 +5,10 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// The greatest length of an arm: the vector from the centre of mass to a contact point, in the body's unit of length.
-/// With this limit, the product of arm, inverse inertia and arm, which an impulse needs, fits a Unit. The body lies
-/// within length 1, and a contact point at most half the gap farther out. Only the midpoint of a deep overlap with a
-/// much larger body can exceed the limit; its arm is clamped to this length.
+/// An impulse needs the product of arm, inverse inertia and arm, which fits a Unit with this limit. The body's own
+/// points are at most 1 from the centre of mass, and a contact point is at most half the gap farther out. Only the
+/// midpoint of a deep overlap with a much larger body can lie beyond the limit; the arm to that midpoint is clamped to
+/// the limit.
 inline constexpr Unit k_arm_max = 1.25;
 
 /// Converts a point to an arm. The point is in units of 2^power times the body's unit. Overflow: the length is clamped

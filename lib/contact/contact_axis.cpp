@@ -8,7 +8,7 @@ namespace {
 
 constexpr int32_t k_push = 256;  ///< ulps; an overlap deep enough to have a reliable direction
 
-constexpr int64_t k_rounded = 1024;  ///< ulps; above what gjk() and the supports err by
+constexpr int64_t k_rounded = 1024;  ///< ulps; more than the errors of gjk() and of the support points
 
 /// Returns the unit vector v (Q30) times `length`, in the unit of `length`.
 Vec32 scaled(const Vec32& v, int64_t length) {
@@ -32,7 +32,8 @@ bool axis_by_pushing(const RestingPair& pair, const Vec32& normal, int32_t dista
   return true;
 }
 
-/// A core of a pair. Of a cylinder an eighth of the lesser of its radius and half length is taken off on all sides.
+/// A core of a pair, with a cylinder made smaller: 1/8 of the lesser of radius and half length is subtracted from both.
+/// Other cores are unchanged.
 class SmallerCore {
  public:
   explicit SmallerCore(const Placed& core) : convex_(*core.convex), placed_(core) {
@@ -56,9 +57,10 @@ class SmallerCore {
   int32_t less_ = 0;
 };
 
-/// Finds the axis of two cores that overlap by the direction in which they are apart when cylinders are made smaller,
-/// because penetration() needs many steps for curved surfaces. Returns false, with `axis` unchanged, if there is no
-/// cylinder, if the overlap is too deep, or if a rim touches: there the smaller cylinder has another direction.
+/// Finds the axis of two cores that overlap. Makes the cylinders smaller (SmallerCore) and takes the direction in which
+/// the smaller cores are apart, because penetration() needs many iterations for curved surfaces. Returns false, with
+/// `axis` unchanged, if neither core is a cylinder, if a core is a half-space, if the overlap is too deep for the
+/// smaller cores to be apart, or if a rim touches, because the smaller cores are then apart in another direction.
 bool axis_of_smaller_cylinders(const RestingPair& pair, ContactAxis& axis) {
   const auto is_cylinder = [](const Placed& core) { return core.convex->type == ShapeType::cylinder; };
   if (pair.planar() || !(is_cylinder(pair.a) || is_cylinder(pair.b))) return false;
@@ -93,7 +95,7 @@ bool find_contact_axis(const RestingPair& pair, int32_t above, DistanceCache* ca
   if (capped && axis_by_pushing(pair, found.normal, found.upper, axis)) return true;
   const NearestPoints nearest = nearest_points(pair.a, pair.b, simplex);
   axis = {found.normal, found.upper, nearest.on_a, nearest.on_b, capped};
-  if (pair.planar()) {  // the plane's point is the projection of the other point
+  if (pair.planar()) {  // the point of the plane is the projection of the other core's point
     const Vec32 offset = subtract(add(pair.offset, axis.point_b), axis.point_a);
     const int64_t height = dot(axis.normal, offset) >> 30;
     if (pair.a.convex->type == ShapeType::half_space) {

@@ -21,10 +21,10 @@ struct PairBefore {
 /// Returns how many points of `geometry` have a feature that also occurs in `contact`.
 uint32_t shared_features(const ContactGeometry& geometry, const ContactState& contact);
 
-/// Keeps the keys of contacts from tick to tick although a plane gets a new name when it tilts slightly or merges with
-/// another plane. Considers the contacts of the last tick whose keys no contact has now. A contact with a new key takes
-/// the key of that contact among them with which it shares the most features. If it shares none, it keeps its new key.
-/// Sorts the contacts by key.
+/// Carries keys over from the contacts of the last tick, because a plane gets a new key when it tilts slightly or
+/// merges with another plane. A contact whose key is new takes the key of the contact of the last tick with which it
+/// shares the most features. Keys that a contact of this tick already has cannot be taken. A contact that shares no
+/// feature keeps its new key. Sorts the contacts by key.
 void continue_keys(const PairBefore& before, TerrainContacts& contacts);
 
 /// Makes the contact of this tick from its geometry and from the contact of the last tick, `before` (null if there was

@@ -227,8 +227,8 @@ void Reference::clip_edge(const Flat& p, const Flat& q, uint8_t from, bool close
     const auto between = [t](int64_t a, int64_t b) { return a + (((b - a) * t) >> 30); };
     AreaPoint point = {between(p.u, q.u),         between(p.v, q.v), between(p.w, q.w), AreaPoint::Kind::crossing, from,
                        static_cast<uint8_t>(side)};
-    // From feature_->count on, a side limits the lateral distance from a reference edge. A point clipped there still
-    // counts as the end of the incident edge.
+    // The sides with an index of feature_->count or more limit the lateral distance from a reference edge. A point
+    // clipped at one of them still counts as the end of the incident edge.
     if (aside_of_edge && side >= feature_->count) {
       point.kind = AreaPoint::Kind::vertex;
       point.incident = end;
@@ -269,9 +269,9 @@ void Reference::offer_corners(const Flat* points, const Feature& incident, AreaC
       inside = (q.u - p.u) * (v - p.v) - (q.v - p.v) * (u - p.u) <= 0;
     }
     if (!inside) continue;
-    // The height is taken at the corner before it is moved outward. There, the corner may lie beside a steep incident
-    // face, where the plane of that face is lower than the face itself. The height is therefore at least that of the
-    // lowest vertex.
+    // The height is taken at the corner's own place, not where it is moved outward. The corner may lie beside a steep
+    // incident face, where the plane of that face is lower than the face itself. The height is therefore set to at
+    // least that of the lowest vertex.
     const int64_t plane = (nu * (points[0].u - corner.u) + nv * (points[0].v - corner.v)) / nw + points[0].w;
     choice.add(
         {corner.u, corner.v, plane < lowest ? lowest : plane, AreaPoint::Kind::corner, 0, static_cast<uint8_t>(i)});

@@ -25,11 +25,11 @@ inline int64_t distance(const AreaPoint& p, const AreaPoint& q) {
   return static_cast<int64_t>(magnitude_64(p.u - q.u) + magnitude_64(p.v - q.v));
 }
 
-/// Chooses up to four of any number of points. If there are at most four and no `level`, it keeps all of them.
+/// Chooses up to four of any number of points. If there are at most four points and no `level`, all of them are kept.
 /// Otherwise the reduction decides. projected_extremes takes the extreme points along four directions. If the deepest
-/// is deeper than all of these by more than `drop`, it is added; if there are four, it replaces the nearest one. If
-/// several extremes are the same point, the free places go to the points that add most to the area. Ties: the earlier
-/// point.
+/// point is deeper than all extremes by more than `drop`, it is added; if there are already four extremes, the deepest
+/// point replaces the extreme that is nearest to it. If several extremes are the same point, the free places go to the
+/// points that add most to the area. Ties: the earlier point.
 class AreaChoice {
  public:
   /// Points higher than `margin` are left out.
@@ -47,10 +47,10 @@ class AreaChoice {
 
  private:
   static constexpr int k_diagonals = 4;
-  /// The gain that a further point must exceed to be chosen. The gain (gain_of()) is the squared distance from one
-  /// chosen point, or twice the area that is added to two or three. With two chosen points the limit is 1/64 of their
-  /// squared distance. With three, it is 1/8 of twice the area of their triangle. With one point, and for deepest_area,
-  /// it is 0.
+  /// The gain that a further point must exceed to be chosen. The gain (gain_of()) is the squared distance from the only
+  /// chosen point, or twice the area that the new point adds to two or three chosen points. With two chosen points the
+  /// limit is 1/64 of their squared distance. With three, it is 1/8 of twice the area of their triangle. With one
+  /// point, and for deepest_area, it is 0.
   int64_t least_gain() const;
   int64_t gain_of(const AreaPoint& point) const;
   void choose_extremes();
@@ -67,9 +67,10 @@ class AreaChoice {
 /// A reference feature with its sides and axes. `up` is its normal, towards the other shape.
 class Reference {
  public:
-  /// `centre`: the centre of the reference's shape, in the block. `size`: the size of the incident shape, ulps. The
-  /// sides are moved outward by 1/64 of `size` or of the face, whichever is smaller, so that flush points stay inside.
-  /// `aside`: the greatest lateral distance, ulps, from a reference edge at which points still face the edge.
+  /// `centre`: the centre of the reference's shape, in the block. `size`: the bounding radius of the incident core or
+  /// shape, ulps. The sides are moved outward, so that flush points stay inside: by 1/64 of `size` or of the least
+  /// distance of a side from the feature's middle, whichever is smaller. `aside`: the lateral distance, ulps, from a
+  /// reference edge up to which a point counts as over the edge.
   Reference(const Placed& placed, const Vec32& centre, const Feature& feature, const Vec32& up, int32_t size,
             int64_t aside = 0);
   /// The plane of a half-space; `foot`: any point near the contact.

@@ -11,7 +11,8 @@ namespace {
 /// Cylinder and cone: the index of the line on the round side, and also the name of that line's upper end. The names 0
 /// to 15 are rim corners.
 constexpr uint32_t k_line = 16;
-/// The first index of edges that only a reduced face has. Edges of the hull have lower indices: there are at most 759.
+/// The first index of the edges that belong to an outline (find_outline()) but not to the hull. Edges of the hull have
+/// lower indices: a hull has at most 759.
 constexpr uint32_t k_unpaired_edge = 768;
 
 Vec32 unit(const Vec64& v) { return unit_vector_raw(scaled_to_30_bits(v)); }
@@ -42,7 +43,8 @@ Vec32 plane_normal(const HullView& hull, uint32_t face) {
 
 constexpr uint32_t k_face_words = 16;  ///< a hull has at most 506 faces
 
-/// A set of vertices of a hull. Bytes, because most tests are of vertices that are not in it.
+/// A set of vertices of a hull. One byte for each vertex keeps the test of a vertex fast; most tested vertices are not
+/// in the set.
 struct VertexSet {
   uint8_t has[k_hull_vertices_max] = {};  ///< 1: the vertex is in the set
   uint32_t count = 0;
@@ -80,7 +82,7 @@ VertexSet level_along(const HullView& hull, const Vec32& direction, int64_t room
   }
 #else
   int64_t top = INT64_MIN / 2, floor = top;
-  uint8_t near[k_hull_vertices_max];  // the vertices that were level when they were met, but not those far below `top`
+  uint8_t near[k_hull_vertices_max];  // candidates: at most `slack` below `top` when they were added
   uint32_t count = 0;
   for (uint32_t v = 0; v < hull.vertex_count; ++v) {
     const int64_t height = heights.of(v);
@@ -170,7 +172,7 @@ int32_t hull_half_thickness(const HullView& hull) {
 #if defined(__OPTIMIZE_SIZE__)
     from_origin = offset < from_origin ? offset : from_origin;
 #else
-    if (from_mean <= from_origin) break;  // the distance from the mean does not count
+    if (from_mean <= from_origin) break;  // the distance from the mean cannot be the greater one
 #endif
   }
   const int64_t most = from_origin > from_mean ? from_origin : from_mean;
@@ -228,8 +230,8 @@ Vec32 normal_about(const HullView& hull, uint32_t face, BitSet faces) {
   return is_zero(sum) ? normal : unit(sum);
 }
 
-/// Finds the region level with a face, as one polygon, if it is larger than the face. `normal`: in, the normal about
-/// the face; out, that of the polygon. False if the face should be used by itself.
+/// Finds the region level with a face, as one polygon, if it is larger than the face. `normal`: on entry,
+/// normal_about() of the face; on return, the normal of the polygon. False if the face should be used by itself.
 bool find_even(const HullView& hull, uint32_t face, int64_t room, VertexPolygon& polygon, Vec32& normal) {
   const HullIndices loop = hull.face(face);
   uint32_t before = 0;
@@ -367,8 +369,8 @@ bool supporting_face(const Placed& placed, const Vec32& direction, int32_t thick
       round_face(placed, d.y < 0, face);
       return true;
     case ShapeType::cone: {
-      // The outward normal of the cone's round side, not normalised: 2 half lengths across the axis, the radius along
-      // it.
+      // The outward normal of the cone's round side, not normalised, has the component 2 half lengths across the axis
+      // and the component radius along the axis.
       const int64_t radius = convex.size[0], height = 2 * int64_t{convex.size[1]}, across = length_across(d);
       const int64_t length = square_root_nearest(static_cast<uint64_t>(radius * radius + height * height));
       if (d.y >= 0 || -d.y < (height * across + radius * d.y) / length) return false;
@@ -449,7 +451,7 @@ uint32_t edge_index(const Placed& placed, uint32_t vertex_a, uint32_t vertex_b) 
       const uint32_t low = vertex_a < vertex_b ? vertex_a : vertex_b, high = vertex_a < vertex_b ? vertex_b : vertex_a;
       uint32_t from = 0;
 #if !defined(__OPTIMIZE_SIZE__)
-      // The edges are in ascending order. The loop leaves those from `from` on, 8 at most.
+      // The edges are in ascending order. After the loop, the edge is one of at most 8 edges from `from` on.
       for (uint32_t to = placed.hull.edge_count; to - from > 8;) {
         const uint32_t middle = (from + to) / 2;
         const HullEdge e = placed.hull.edge(middle);

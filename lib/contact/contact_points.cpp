@@ -10,11 +10,11 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A face replaces the edges, or the axis itself, if the separation of the cores along its normal is smaller than along
-/// the axis by at most 1/64 of the half thickness of the thinner core.
+/// The contact is made on a face, not on edges or on the axis itself, if the separation of the cores along the face
+/// normal is smaller than along the axis by at most 1/64 of the half thickness of the thinner core.
 constexpr int k_face_power = 6;
 constexpr int k_aside_power = 5;            ///< lateral limit for edges: 2^-5 of the thinner half thickness
-constexpr int64_t k_upright = k_one >> 13;  ///< a normal within this angle, rad, of a face normal is replaced by it
+constexpr int64_t k_upright = k_one >> 13;  ///< rad; an axis this close to a face normal is replaced by the face normal
 constexpr int64_t k_level = k_one >> 5;     ///< edges closer to parallel than this, rad, touch along a line
 
 int64_t smaller_but_0(int64_t a, int64_t b) { return a == 0 ? b : b == 0 || a < b ? a : b; }
@@ -37,8 +37,8 @@ int nearest_to(const AreaPoint& place, const AreaChoice& choice) {
   return nearest;
 }
 
-/// One of the two shapes, and the direction of the other. Several steps need the face and the edge along `outward`;
-/// the properties that most of them need are kept.
+/// One of the two shapes, and the direction of the other. Several functions need the face and the edge along `outward`;
+/// the name and normal of the face and the name of the edge are stored when they are first found.
 struct Half {
   const Placed& placed;
   Vec32 centre;                    ///< in the block
@@ -64,8 +64,8 @@ struct Half {
   }
 };
 
-/// core_half_thickness() of B, given that of A. For a hull it takes a loop over the faces, so two bodies of one hull
-/// share the result.
+/// core_half_thickness() of B, given that of A. For a hull the computation is a loop over the faces, so two bodies with
+/// the same hull share the result.
 int32_t thickness_of_b([[maybe_unused]] const RestingPair& pair, [[maybe_unused]] int32_t of_a) {
 #if !defined(__OPTIMIZE_SIZE__)
   const uint8_t* hull = pair.a.hull.bytes;
@@ -114,8 +114,8 @@ class Builder {
   void add_point(const Vec32& normal, const Vec64& twice_middle, int64_t separation, uint32_t on_a, uint32_t on_b,
                  BlockManifold& manifold) const;
   /// Whether A is preferred where a feature of either shape could be the reference. The preferred shape is the one that
-  /// lies lower along a fixed direction, which is unlikely to be an axis of a shape. The result does not depend on
-  /// which shape is called A.
+  /// lies lower along a fixed direction, which is unlikely to be parallel to an axis of a shape. The result does not
+  /// depend on which shape is called A.
   bool a_comes_first() const { return dot(axis_.normal, Vec32{493921240, 848256040, 440234144}) > 0; }
   static void find_incident(const Half& half, const Vec32& towards, Feature& incident) {
     if (!supporting_face(half.placed, towards, half.thickness, incident))
@@ -208,7 +208,8 @@ bool Builder::fill(const Reference& reference, bool reference_is_a, const Featur
   while (choice.again());
   const Vec32 normal = reference_is_a ? reference.up() : negate(reference.up());
   if (choice.count() == 0) return false;
-  // The polygon that stands for a round face may miss the point on the axis. That point is then added.
+  // The polygon that represents a round face (supporting_face()) may not reach the point on the axis. That point is
+  // then added.
   int deepest = 0;
   for (int i = 1; i < choice.count(); ++i) deepest = choice[i].w < choice[deepest].w ? i : deepest;
   const Vec32 nearest = add(other.centre, reference_is_a ? axis_.point_b : axis_.point_a);
@@ -299,8 +300,8 @@ bool Builder::build_on_edge(BlockManifold& manifold) const {
   if (is_zero(along_a) || is_zero(along_b) || !is_parallel(along_a, along_b, k_level)) return false;
   const bool is_a = a_comes_first();
   const Half &half = is_a ? half_a_ : half_b_, &other = is_a ? half_b_ : half_a_;
-  // Away from their crossing, edges that cross at a small angle lie beside each other. Also, the normal is not exact
-  // enough for long edges to lie exactly over each other.
+  // `aside` allows for two effects. Edges that cross at a small angle lie beside each other away from their crossing,
+  // and the normal is not exact enough for long edges to lie exactly over each other.
   const int64_t aside = (pair_.block_above(thickness()) >> k_aside_power) + drop_;
   const Reference reference(half.placed, half.centre, is_a ? edge_a : edge_b, half.outward,
                             radius_in_block(other.placed), aside);
@@ -349,7 +350,8 @@ void Builder::build_over_face(const Feature& face, BlockManifold& manifold) {
   only_over_ = true;
   Feature incident;
   find_incident(half_b_, negate(face.normal), incident);
-  // The slack of a ball is proportional to its own size; otherwise the ball might fall between two faces.
+  // The slack at the sides is proportional to the shape's radius including its ball. Otherwise a ball, whose core is a
+  // point, would have no slack and might fall between two faces.
   const int64_t size = int64_t{radius_in_block(pair_.b)} + pair_.block_above(pair_.radius_b);
   const int32_t held = size > k_one ? k_one : static_cast<int32_t>(size);
   fill(Reference(pair_.a, half_a_.centre, face, face.normal, held), true, incident, manifold);

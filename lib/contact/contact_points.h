@@ -54,9 +54,9 @@ Status contact_points_by(const ContactRules& rules, const Convex& a, const Pose&
                          const Pose& pose_b, DistanceCache* cache, ContactManifold& manifold, ContactKind& kind);
 
 /// Finds the contact points between A's `face` and the feature of B that is farthest against the face's normal. The
-/// contact normal is the face's normal. Only points over the face are found, or beyond its sides by at most 1/64 of the
-/// size of the face or of B, whichever is smaller; there may be none. The function makes no search, so the result is
-/// never capped.
+/// contact normal is the face's normal. Only points over the face are found, or beyond its sides by at most the slack
+/// of Reference (contact_clip.h) for the bounding radius of B; there may be none. The function makes no search, so the
+/// result is never capped.
 void contact_points_over_face(const RestingPair& pair, const Feature& face, int64_t margin, ManifoldReduction reduction,
                               BlockManifold& manifold);
 

@@ -106,8 +106,8 @@ __attribute__((noinline)) bool find_level_face(const RestingPair& pair, int64_t 
       const Vec32 normal = side == 0 ? near.normal[i] : negate(near.normal[i]);
       ContactAxis level = axis;
       if (dot(normal, axis.normal) < k_alike || !is_level(apart_along(pair, normal, level))) continue;
-      // The contact point lies on the face normal through the core of the round shape. Beside it, the contact would
-      // exert a torque on a ball.
+      // The contact point is placed on the line along the face normal through the core's point of the round shape.
+      // Beside this line, the contact would exert a torque on a ball.
       const Vec64 offset = {normal.x * level.separation, normal.y * level.separation, normal.z * level.separation};
       const Vec32 across = round_shift(offset, 30);
       if (side == 0)

@@ -3,14 +3,15 @@
 #include "contact/contact_feature.h"
 
 /// A resting body penetrates its support slightly. When it slides over the seam between two supporting bodies, it
-/// therefore hits the side or the edge of the second body. These functions detect such contacts, so that they do not
-/// stop the sliding body or throw it upward.
+/// therefore hits the side or the edge of the second body. These functions detect such contacts, so that the caller can
+/// prevent them from stopping the sliding body or throwing it upward.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Whether the contact along `axis` is only a sliver. Two conditions must hold. Along `axis`, the shapes are apart or
-/// overlap by at most `room`. Along some other axis, more than 2^-2 rad from `axis`, a face of A lies against a face of
-/// B with a separation within +-`room`. Lengths in 2^-46 m.
+/// Whether the contact along `axis` is only a sliver: a shallow contact beside a face contact of the same shapes. Two
+/// conditions must hold. Along `axis`, the shapes are apart or overlap by at most `room`. Along some other axis, more
+/// than 2^-2 rad from `axis`, a face of A lies against a face of B with a separation within +-`room`. Lengths in 2^-46
+/// m.
 bool is_sliver(const RestingPair& pair, const ContactAxis& axis, int64_t room);
 
 /// The depth up to which an overlap counts as a sliver: the greater of thickness / 32 and `sunk`, where `sunk` is

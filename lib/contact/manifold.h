@@ -12,7 +12,7 @@ inline namespace DETENT_NAMESPACE {
 struct PairPoint {
   Vec3<Unit> point;  ///< midway between the surfaces
   Unit separation;   ///< along the normal; negative when overlapping
-  uint32_t feature;  ///< names the pair of touching features; distinct, constant while they touch, never 0
+  uint32_t feature;  ///< name of the touching pair of features: distinct, the same while they touch, never 0
 };
 
 /// Contact of a pair: one normal and up to four points, in the pair's frame.
@@ -33,12 +33,12 @@ struct PairShape {
   ShapeType type;
   Vec3<Unit> centre;
   Matrix3 rotation;
-  Vec3<Unit> size;  ///< half extents; or (radius, half length, 0)
+  Vec3<Unit> size;  ///< half extents of a box; (radius, half length, 0) of a round shape
 };
 
 /// A pair, scaled so that the centres, both shapes and the gap between them lie within the unit ball around A's centre.
-/// Every sum of two projections then fits a Unit, and the relative precision is the same for a millimetre and for a
-/// hundred metres.
+/// Every sum of two projections then fits a Unit, and the relative precision is the same for bodies of a millimetre and
+/// of a hundred metres.
 struct PairFrame {
   int exponent;
   Unit margin;  ///< contact margin: points farther apart than this are left out

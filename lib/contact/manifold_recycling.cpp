@@ -9,8 +9,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A contact with at least this many points is recycled up to the whole tolerance. A pair can rotate or roll about a
-/// contact with fewer points; such a contact is recycled only up to 2^-k_roll_power of the tolerance.
+/// A contact with at least this many points is recycled until the motion of the pair exceeds the tolerance. A pair can
+/// rotate or roll about a contact with fewer points, so the limit is then 2^-k_roll_power of the tolerance.
 constexpr uint32_t k_plane_points = 3;
 constexpr int k_roll_power = 6;
 constexpr int k_anchor_frac = 15;
@@ -33,7 +33,7 @@ int16_t anchor_from_unit(Unit value) {
 #endif
 }
 
-/// Whether |value| < limit. It does not compute |value|, which overflows for the most negative number.
+/// Whether |value| < limit. Does not compute |value|, because it overflows for the most negative number.
 bool is_within(Unit value, Unit limit) { return -limit < value && value < limit; }
 bool is_within(const Vec3<Unit>& v, Unit limit) {
   return is_within(v.x, limit) && is_within(v.y, limit) && is_within(v.z, limit);
@@ -90,7 +90,7 @@ bool a_is_base(const BodyProperties& a, const BodyProperties& b) {
   return !(bounding_radius_of(a) < bounding_radius_of(b));
 }
 
-/// An upper bound, m, of how far any point of the other body has moved relative to the base.
+/// An upper bound, m, of how far any point of the other body has moved relative to the base since `before` was stored.
 Real motion_since(const RecyclePair& pair, const ManifoldState& before) {
   const Vec3<Unit> shift = pair.offset_in_base() - before.offset;
   const Quat &p = before.rotation, q = pair.rotation_in_base();

@@ -17,12 +17,12 @@ bool is_kept(const ManifoldState& manifold);
 /// motion along the normal. Points farther apart than `margin`, m, are left out of `contact` and of `after`.
 /// Returns false if the caller must collide the pair anew: if the data is all zero, and in two other cases. First, a
 /// point of the smaller body may have moved relative to the larger body by more than `tolerance`, m; for a contact of
-/// one or two points, about which a body can rotate or roll, the limit is 1/64 of that. Second, too few points are
-/// left: fewer than three of a contact with three or four points, or not all of a contact with one or two points.
+/// one or two points, about which a body can rotate or roll, the limit is 1/64 of `tolerance`. Second, too few points
+/// are left: fewer than three of a contact with three or four points, or not all of a contact with one or two points.
 ///
 /// Precision: that of collide(), and 2^-17 of the motion. Each call starts from the stored data, so errors do not
-/// accumulate. The direction of the normal errs by no more than the relative rotation of the pair since then, which is
-/// at most 2 tolerance / (bounding diameter of the smaller body).
+/// accumulate. The direction of the normal errs by no more than the relative rotation of the pair since the data was
+/// stored, which is at most 2 tolerance / (bounding diameter of the smaller body).
 bool recycle_manifold(const CollisionBody& a, const CollisionBody& b, const ManifoldState& before,
                       const uint32_t (&feature)[k_manifold_points_max], uint32_t count, Real tolerance, Real margin,
                       ContactGeometry& contact, ManifoldState& after);

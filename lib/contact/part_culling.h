@@ -6,12 +6,12 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Finds out which parts of two bodies cannot come near each other, by the bounds of the parts in A's axes.
+/// Compares the bounds of the parts of two bodies, in A's axes, to find the parts that cannot come near each other.
 class PartCulling {
  public:
-  /// `displacement`: how far B moves relative to A, m, world axes. Parts that stay farther apart than `distance`, m, on
-  /// the way are culled; what rotations add to the motion must be part of `distance`. Nothing is culled if a body is a
-  /// half-space, or if a value is out of range.
+  /// `displacement`: how far B moves relative to A, m, world axes. Parts that stay farther apart than `distance`, m,
+  /// during this motion are culled; `distance` must include the motion that rotations add. Nothing is culled if a body
+  /// is a half-space, or if a value is out of range.
   PartCulling(const BodyProperties& a, const Pose& pose_a, const BodyProperties& b, const Pose& pose_b, Real distance,
               const Vec3<Real>& displacement);
 

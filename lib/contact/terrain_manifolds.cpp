@@ -168,7 +168,7 @@ void TerrainManifolds::choose(const Group& group, TerrainManifold& manifold) con
   manifold.turns = group.turns;
 }
 
-/// Removes the doubtful groups (TerrainTouch::doubtful), unless all groups are doubtful. Such a contact is very
+/// Removes the doubtful groups (TerrainTouch::doubtful), unless all groups are doubtful. A doubtful contact is very
 /// deep, and the terrain does not allow its direction of least overlap as the normal.
 void TerrainManifolds::leave_out_doubtful() {
   bool certain = false;

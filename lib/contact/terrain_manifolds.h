@@ -24,8 +24,8 @@ struct TerrainManifold {
 };
 
 /// Collects the touches of a shape, triangle by triangle or part by part, into a few manifolds: all touches in one
-/// plane form one manifold. It processes touches one at a time, so their number is not limited. The contact points in
-/// one plane must have distinct features.
+/// plane form one manifold. Touches are added one at a time, and their number is not limited. The contact points in one
+/// plane must have distinct features.
 class TerrainManifolds {
  public:
   /// `size`: the shape's half thickness, 2^-46 m.

@@ -12,7 +12,7 @@ constexpr int k_shallow_power = 3;  ///< a contact no deeper than 2^-3 of the ha
 constexpr int k_lowest_power = 10;  ///< points within 2^-10 of the half thickness above the lowest count as lowest
 constexpr int k_allowed_power = 7;  ///< an allowed normal may tilt by 2^-7 rad into the neighbouring triangles
 constexpr int k_level_power = 6;    ///< edges whose slope is less than 2^-6 rad lie along the contact
-constexpr int k_mild_power = 3;     ///< if two face normals enclose less than 2^-3 rad, contacts at the edge use them
+constexpr int k_mild_power = 3;     ///< face normals less than 2^-3 rad apart: contacts at the common edge use them
 constexpr uint32_t k_fan_max = 64;  ///< number of triangles around a corner that are tested in each direction
 
 constexpr uint64_t longest(const Vec32& v) {
@@ -252,8 +252,9 @@ bool TerrainPair::has_sharp_edge(const Side& side) const {
   return false;
 }
 
-/// Whether, across a convex or open edge, the shape overlaps less than `deepest` (a separation, 2^-46 m). The overlap
-/// is measured along the normal of the neighbour; at an open edge, outward in the plane of the triangle.
+/// Whether the shape overlaps less in a direction across a convex or open edge than along the triangle's normal, where
+/// the least separation is `deepest`, 2^-46 m. At a convex edge, this direction is the normal of the neighbour; at an
+/// open edge, it points outward in the plane of the triangle.
 bool TerrainPair::has_nearer_exit(const Side& side, int64_t deepest) const {
   for (uint32_t k = 0; k < 3; ++k) {
     const TerrainTriangle& t = side.triangle;
@@ -352,10 +353,11 @@ __attribute__((noinline)) bool TerrainPair::is_lowest_beside(const Side& side, i
   return false;
 }
 
-/// Whether a contact found at an edge of the triangle is a contact at a seam (contact_seam.h). If its normal is within
-/// 2^-2 rad of the triangle's, a round shape must touch an edge that is level with the triangle; otherwise the contact
-/// must be a sliver. False without smooth_seams, and if no edge is convex or open. `facing`: the dot product of the
-/// contact normal and the triangle's normal, Q60. `deepest`: the least separation, 2^-46 m.
+/// Whether a contact found at an edge of the triangle is a contact at a seam (contact_seam.h). A contact whose normal
+/// is within 2^-2 rad of the triangle's normal is at a seam if a round shape touches an edge that is level with the
+/// triangle. Any other contact is at a seam if it is a sliver. False without smooth_seams, and if no edge is convex or
+/// open. `facing`: the dot product of the contact normal and the triangle's normal, Q60. `deepest`: the least
+/// separation, 2^-46 m.
 bool TerrainPair::is_at_seam(const Side& side, int64_t facing, int64_t deepest) const {
   if (!rules_.smooth_seams || !side.has_free_edge()) return false;
   const auto within = [&](int64_t room) { return side.height >= -room && side.height <= room && deepest >= -room; };
@@ -366,8 +368,8 @@ bool TerrainPair::is_at_seam(const Side& side, int64_t facing, int64_t deepest) 
          dot(face.normal, side.normal) < -k_level_faces;
 }
 
-/// Replaces the normal of a manifold. Moves each contact point to lie under the core's point along the new normal. A
-/// contact point beside it would exert a torque on a ball.
+/// Replaces the normal of a manifold. Moves each contact point to the line along the new normal through the core's
+/// point. A contact point beside this line would exert a torque on a ball.
 void TerrainPair::turn_to(const Vec32& normal, BlockManifold& manifold) const {
   for (uint32_t i = 0; i < manifold.count; ++i) {
     BlockPoint& point = manifold.point[i];
@@ -423,7 +425,8 @@ bool TerrainPair::touch(uint32_t index, TerrainTouch& touch) const {
   const bool over = touch.manifold.count > 0, shallow = touch.deepest > -(thickness_ >> k_shallow_power);
   const bool sharp = free && has_sharp_edge(side);
   if (!sharp && over && shallow) return true;
-  // On a mild ridge, the lowest point along the normal of each of the two triangles lies beyond the common edge.
+  // The limit is larger for a triangle with a convex or open edge. On a mild ridge, the shape's lowest point along the
+  // normal of either triangle lies beyond the common edge, so both triangles would discard the contact.
   if (!sharp && !over && is_lowest_beside(side, size >> (free ? k_mild_power : k_level_power))) return false;
   if (over && touch.deepest >= 0 && touch.deepest <= side.height + (thickness_ >> k_lowest_power)) return true;
   if (over && shallow && touch.deepest <= side.height + (thickness_ >> k_lowest_power) &&

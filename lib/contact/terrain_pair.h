@@ -67,8 +67,8 @@ class TerrainPair {
   /// Finds the contact with one triangle. False if the shape does not touch the triangle, or if the contact belongs to
   /// a neighbour.
   ///
-  /// The contact normal must be one that the terrain allows. Between flat and concave edges, this is only the
-  /// triangle's own normal. At a convex or open edge, or at a corner, the directions between the normals of the
+  /// The contact normal must be one that the terrain allows. On the face, and at flat and concave edges, this is only
+  /// the triangle's own normal. At a convex or open edge, or at a corner, the directions between the normals of the
   /// adjacent faces are allowed too. Contact points over the triangle along its own normal need no search. A search
   /// runs only near a sharp edge, at a mild ridge if no contact point is over the triangle, and for deep contacts.
   bool touch(uint32_t triangle, TerrainTouch& touch) const;

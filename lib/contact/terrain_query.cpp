@@ -8,7 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int32_t k_slack = 4;  ///< grid steps; more than the rounding of the ends moves the segment
+constexpr int32_t k_slack = 4;  ///< grid steps; rounding the ends moves the segment by less than this
 
 /// Limits [from, to] to the times at which the segment is in the box, grown by k_slack steps. False if there are none.
 bool clip(const GridBox& box, int shift, const Vec64& origin, const Vec64& displacement, int64_t& from, int64_t& to) {

@@ -16,9 +16,10 @@ struct TerrainHit {
 
 /// Finds the first triangle of terrain (a mesh or height field) at `pose` that a segment hits. The segment goes from
 /// `origin` (m, from the terrain's position, world axes) along `displacement` (m). Ties: the lower index. One-sided
-/// terrain ignores hits from behind. No ray passes through an edge between two triangles: the ends are rounded to the
-/// grid and the side tests are then exact, so the hit errs by up to one grid step. A ray in a triangle's plane does not
-/// hit the triangle. Errors: not_normalised; out_of_range, also for components of 2^15 m or more.
+/// terrain ignores hits from behind. The ends are rounded to the grid, so the hit errs by up to one grid step. The
+/// tests against the sides of a triangle are then exact, so no ray passes between two adjacent triangles. A ray in a
+/// triangle's plane does not hit the triangle. Errors: not_normalised; out_of_range, also for components of 2^15 m or
+/// more.
 Status cast_ray_on_terrain(const Terrain& terrain, const Pose& pose, const Vec3<Real>& origin,
                            const Vec3<Real>& displacement, TerrainHit& hit);
 

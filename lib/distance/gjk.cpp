@@ -21,9 +21,9 @@ void restart(const Placed& a, const Placed& b, const Vec32& offset, Simplex& sim
   }
 }
 
-/// The product of a gap in ulps and the length of a direction vector, above which the gap is certain. The vector is
-/// shorter than 2^31, so this gap is more than four ulps: more than the rounding errors of the direction and of the
-/// support points.
+/// A gap along a direction vector is certain if gap (ulps) x length of the vector is above this. The vector is shorter
+/// than 2^31, so such a gap is more than four ulps: more than the rounding errors of the direction and of the support
+/// points.
 constexpr int64_t k_touching = int64_t{4} << 31;
 
 int32_t floor_30(int64_t value) { return static_cast<int32_t>(value >> 30); }
@@ -45,7 +45,7 @@ void exact_support(const Placed& placed, const Simplex& simplex, int sign, CoreP
   }
 }
 
-/// gjk() for a half-space. Only the plane's normal can separate it from the other shape.
+/// gjk() for a half-space. Only the normal of its plane can separate it from the other shape.
 GjkResult half_space_gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& simplex) {
   const bool plane_is_a = a.convex->type == ShapeType::half_space;
   const Vec32 up = (plane_is_a ? a : b).rotation.column[1];

@@ -29,10 +29,10 @@ Vec3<Unit> units_from_raw(const Vec32& v);
 /// [-2, 2).
 bool raw_from_direction(const Vec3<Unit>& v, Vec32& raw);
 
-/// The greatest exponent of a pair. A difference that saturates in all components plus the largest cores is below
-/// 2^19 m.
+/// The greatest exponent of a pair. Even if the difference of the positions saturates in all components, its length
+/// plus the core radii is below 2^19 m.
 inline constexpr int k_exponent_max = 19;
-/// The OR of the components' magnitudes: its leading bit is that of the largest one.
+/// The OR of the components' magnitudes: its leading bit is that of the largest magnitude.
 DETENT_SHARED constexpr uint64_t magnitudes(const Vec64& v) {
   return magnitude_64(v.x) | magnitude_64(v.y) | magnitude_64(v.z);
 }
@@ -53,9 +53,9 @@ int64_t raw_from_block(int64_t ulps, int exponent);
 /// (Q30). Result in m.
 Vec3<Real> surface_point(const Vec32& core, int exponent, const Vec32& normal, int64_t radius);
 
-/// Returns the point that lies `gap` ulps from the other body's point `on_other` (in the block), against `up`: the
-/// point of the half-space below it. Result in m, relative to the half-space's position. `offset` (2^-46 m) runs from
-/// the half-space's position to the other body's position.
+/// Returns the point of the half-space below the other body's point `on_other` (in the block): the point that lies
+/// `gap` ulps from `on_other`, against `up`. Result in m, relative to the half-space's position. `offset` (2^-46 m)
+/// runs from the half-space's position to the other body's position.
 Vec3<Real> half_space_point(const Vec64& offset, const Vec32& on_other, int exponent, const Vec32& up, int32_t gap);
 
 /// The least e >= -14 with raw 2^-46 m < 2^e m.

@@ -114,8 +114,8 @@ const Face& ExpandingPolytope::nearest_face(int64_t& least) const {
   return face[best];
 }
 
-/// Replaces `found`, which is nearly the farthest along `normal`, by the exactly farthest vertex of the placed core.
-/// Leaves it as it is if the core has no vertices.
+/// Replaces `found`, which is the farthest along `normal` but for rounding, by the exactly farthest vertex of the
+/// placed core. Leaves `found` as it is if the core has no vertices.
 void exact_support(const Placed& placed, const Vec64& normal, SupportPoint& found) {
   if (found.core.feature == k_no_feature) return;
   // A vertex whose coordinate along the direction is smaller by more than `doubt` cannot be the farthest. `doubt` is a

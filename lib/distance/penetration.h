@@ -27,9 +27,9 @@ inline constexpr int k_penetration_slack = 8;
 inline constexpr int k_penetration_gap = 4;
 
 /// Finds the least translation of B (at `offset`) that separates it from A (at the block's origin), by an expanding
-/// polytope (van den Bergen 2001). Every decision is an exact sign, so the polytope stays convex however flat its faces
-/// are. Starts from the simplex with which gjk() found the overlap. If the Minkowski difference of the cores has no
-/// volume (two segments, a point and a triangle, triangles in one plane), the depth is 0 and the normal is
+/// polytope (van den Bergen 2001). An exact sign makes every decision, so the polytope stays convex however flat its
+/// faces are. Starts from the simplex with which gjk() found the overlap. If the Minkowski difference of the cores has
+/// no volume (two segments, a point and a triangle, triangles in one plane), the depth is 0 and the normal is
 /// perpendicular to the difference. Range: gjk() ended with `overlap`. Stack: slightly more than 4 KB.
 Penetration penetration(const Placed& a, const Placed& b, const Vec32& offset, const Simplex& simplex);
 

@@ -8,7 +8,7 @@ inline namespace DETENT_NAMESPACE {
 /// left face has the edge from its first vertex to its second in counter-clockwise order, seen from outside.
 struct EdgeFaces {
   Vec64 left, right;
-  bool flat;  ///< both lie in one plane: the edge is inside a flat face
+  bool flat;  ///< both faces lie in one plane: the edge is inside a flat face
 };
 
 /// The triangulated boundary of a box, hull or triangle. Vertices have the numbers of core_vertex(); their coordinates

@@ -31,9 +31,9 @@ class Simplex {
     if (count_ < 4) vertex_[count_++] = vertex;
   }
   /// Adds `vertex` and drops the vertices that the new nearest point does not need. Returns false and changes nothing
-  /// unless `vertex` lies strictly on the origin's side of the plane through the nearest point v perpendicular to v. So
-  /// each insertion brings the nearest point strictly nearer. Two polytopes have finitely many vertices, so every
-  /// sequence of insertions ends. Range: not holds_origin().
+  /// unless `vertex` lies strictly on the origin's side of a plane: the plane through the nearest point v that is
+  /// perpendicular to v. So each insertion brings the nearest point strictly nearer. Two polytopes have finitely many
+  /// vertices, so every sequence of insertions ends. Range: not holds_origin().
   bool insert(const SimplexVertex& vertex);
 
   /// A vector from the origin towards the nearest point. Its largest component is within [2^29, 2^30] in magnitude.
@@ -64,7 +64,7 @@ class Simplex {
   int count_ = 0;
   bool holds_origin_ = false;
   // Edge (two vertices): `edge_` runs from vertex 1 to vertex 0. Triangle (three vertices): `normal_` is perpendicular
-  // to it and points from the origin towards it.
+  // to the triangle and points from the origin towards it.
   Vec32 edge_;
   int64_t edge_square_;
   int64_t along_;  // nearest point's distance from vertex 1 times the edge's length, in (0, edge_square_)
@@ -178,7 +178,8 @@ inline void Simplex::reduce_tetrahedron() {
   const int volume = sign_of(dot(normals[0], ad));
   bool outside = volume == 0;
   for (int i = 0; i < 3; ++i) {
-    // The origin is outside a face if the fourth vertex lies on the other side of it; a flat tetrahedron has no inside.
+    // The origin is outside a face if the fourth vertex is on the other side of the face. A flat tetrahedron has no
+    // inside.
     const int side = sign_of(dot(normals[i], a));
     if (volume != 0 && side != volume) continue;
     outside = true;

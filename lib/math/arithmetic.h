@@ -40,8 +40,8 @@ constexpr uint64_t unit_product(Unit a, Unit b) { return static_cast<uint64_t>(i
 /// a b. Range: |a b| < 2.
 DETENT_SHARED constexpr Unit operator*(Unit a, Unit b) { return unit_from_product(unit_product(a, b)); }
 
-/// The functions with a Real result, on raw integers: most calling conventions of 32-bit machines return an integer in
-/// registers, but a struct in memory.
+/// The functions of this file with a Real result, on raw integers instead of Reals: most calling conventions of 32-bit
+/// machines return an integer in registers, but a struct in memory.
 namespace raw {
 DETENT_SHARED constexpr int64_t multiply(int64_t a, int32_t unit) { return Int128::narrow_sum<k_unit_frac>(a, unit); }
 DETENT_SHARED constexpr int64_t multiply(int64_t a, int64_t b) {
@@ -77,7 +77,8 @@ DETENT_PASSING constexpr Real operator*(Real a, Real b) { return Real::from_raw(
 inline constexpr Real k_real_max = Real(131072.0);  ///< the range is that of the fixed configurations
 #endif
 
-/// The step of a Unit near 1, 2^k_unit_step: the unit in which errors of Unit results are stated (docs/numbers.md).
+/// A *step* is the resolution of a Unit near 1: 2^k_unit_step. Errors of Unit results are stated in steps
+/// (docs/numbers.md).
 #if DETENT_FIXED
 inline constexpr int k_unit_step = -30;
 #elif defined(DETENT_F32)
@@ -113,7 +114,8 @@ constexpr T abs(T a) {
 #if DETENT_FIXED
 DETENT_PASSING constexpr Real abs(Real a) { return Real::from_raw(raw::abs(a.raw)); }
 #else
-// A processor clears the sign bit. The comparison above would be a branch, which is mispredicted for random signs.
+// These functions only clear the sign bit. The comparison above would be a branch, which is mispredicted for random
+// signs.
 constexpr float abs(float a) { return __builtin_fabsf(a); }
 constexpr double abs(double a) { return __builtin_fabs(a); }
 #endif
@@ -209,7 +211,8 @@ DETENT_PASSING constexpr Unit unit_from_real(Real r, int e) {
 DETENT_SHARED constexpr Unit unit_difference(Coord a, Coord b, int e) {
   const int n = e + Coord::k_frac - k_unit_frac;
   if (n < 2) return unit_from_raw(shift_64(subtract_wrapped(a.raw, b.raw), -n));
-  // Halved first, because the 64-bit difference can overflow. The lowest bit cannot change the rounding.
+  // The coordinates are halved before the subtraction, because their 64-bit difference can overflow. The lowest bit
+  // cannot change the rounding.
   const int64_t half = (int64_t{a.raw} >> 1) - (int64_t{b.raw} >> 1) - (int64_t{b.raw} & ~int64_t{a.raw} & 1);
   return unit_from_raw(shift_64(half, 1 - n));
 }

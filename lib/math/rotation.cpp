@@ -181,7 +181,7 @@ Quat rotation_from_vector(const Vec3<Real>& theta) {
   if (all_below(theta, Real(0.0625))) return small_rotation(theta);
   Vec3<Unit> axis;
   Real angle;
-  if (!normalise(theta, axis, angle)) return k_identity;  // never: theta is not short
+  if (!normalise(theta, axis, angle)) return k_identity;  // does not occur: theta is not short
   Unit sine;
   Unit cosine;
   sine_cosine_of_half_radians(angle, sine, cosine);

@@ -23,7 +23,7 @@ Vec3<Unit> rotate(const Quat& q, const Vec3<Unit>& v);
 /// Rotates v from world to local axes: q* v q.
 Vec3<Unit> rotate_inverse(const Quat& q, const Vec3<Unit>& v);
 #if DETENT_FIXED
-/// The same for lengths. Range: |v| < 2^16 m.
+/// As rotate() and rotate_inverse() above, for lengths. Range: |v| < 2^16 m.
 Vec3<Real> rotate(const Quat& q, const Vec3<Real>& v);
 Vec3<Real> rotate_inverse(const Quat& q, const Vec3<Real>& v);
 #endif

@@ -14,8 +14,8 @@ inline namespace DETENT_NAMESPACE {
 #if DETENT_FIXED
 inline constexpr int k_scaled_exponent_max = 256;
 
-/// The functions below on words. A Scaled is one 64-bit word, because most calling conventions of 32-bit machines pass
-/// a struct of two words through memory. A Real is its raw integer.
+/// The functions below, on integers. A Scaled is passed as one 64-bit word, because most calling conventions of 32-bit
+/// machines pass a struct of two words through memory. A Real is passed as its raw integer.
 namespace words {
 uint64_t scaled_from_parts(bool negative, uint64_t mantissa, int exponent);
 uint64_t scaled_from(int64_t raw, int frac);
@@ -29,7 +29,7 @@ uint64_t scaled_reciprocal(int64_t raw);
 int64_t multiply_raw(int64_t raw, uint64_t b);
 int64_t multiply_raw(int64_t raw, uint64_t b, bool& saturated);
 
-// Each variant takes no instructions on its machines.
+// On its machines, each variant compiles to no instructions.
 #if UINTPTR_MAX > 0xffffffff
 constexpr uint64_t word_of(Scaled a) { return __builtin_bit_cast(uint64_t, a); }
 constexpr Scaled to_scaled(uint64_t word) { return __builtin_bit_cast(Scaled, word); }

@@ -52,8 +52,9 @@ Vec3<Real> displacement_of_ground(const Mover& mover, const Pose& now) {
   return within(displacement, k_displacement_max) ? displacement : k_zero_vector;
 }
 
-/// The impulse, N s, that gives the body at the contact the speed of the requested displacement against the contact
-/// normal; at most push_force times the tick. Zero for a floor, and for a body that is not dynamic or not slower.
+/// The impulse, N s, by which the mover pushes the body of a contact: it gives the body the speed of the requested
+/// displacement against the contact normal, and is at most push_force times the duration of a tick. Zero for a floor,
+/// for a body that is not dynamic, and for a body that is not slower than the displacement.
 Vec3<Scaled> impulse_of(const World& world, const MoverSettings& settings, const MoverContact& contact,
                         const Vec3<Real>& displacement) {
   const StateView<const uint8_t> state = view_of(world);

@@ -294,7 +294,7 @@ Vec3<Real> MoverMotion::slide(Vec3<Real> displacement, MoverGait gait) {
     step_along(next);
     const Vec3<Real> gone = real_difference(position_, from);
     displacement -= gone;
-    if (gait == MoverGait::walk) displacement -= up_ * dot(displacement, up_);  // do not undo the rise by floors
+    if (gait == MoverGait::walk) displacement -= up_ * dot(displacement, up_);  // do not undo the rise over floors
     if (within(displacement, k_mover_still) || (within(gone, k_mover_still) && hit_count_ == hits_before))
       return displacement;
   }
@@ -358,7 +358,7 @@ bool MoverMotion::climb(const Vec3<Real>& rest) {
       go(up_ * -rise());
       const MoverPlane* floor = find_floor();
       if (floor != nullptr && rise() > half_gap && gets_on()) {
-        // An edge may touch the side of the mover high above its foot.
+        // An edge may touch the side of the mover high above its foot. Such an edge is not a step.
         const Real top =
             dot(real_difference(floor->point, start.position), up_) + settings_.half_length + settings_.radius;
         if (top <= settings_.step_height) return true;

@@ -32,8 +32,7 @@ struct MoverPlane {
   bool on_terrain;  ///< the body is a terrain: it may have several planes, each reported
 };
 
-/// Displacements shorter than this count as no motion, m. It is two position steps in configurations with coarse
-/// positions.
+/// Displacements shorter than this count as no motion, m. In fx32, this is two units of a coordinate.
 #if defined(DETENT_FX32)
 inline constexpr Real k_mover_still = Real(0x1p-15);
 #else

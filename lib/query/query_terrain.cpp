@@ -120,7 +120,7 @@ struct CastSearch : TriangleSearch {
       displacement = rotate_back(place.terrain, raw);
   }
 
-  /// Whether the shape stays on one side of the plane.
+  /// Whether the shape stays on one side of the triangle's plane.
   bool rules_out(const TerrainTriangle& t, const Vec32& normal) const {
     const int64_t start = height(t, normal), end = start + dot(displacement, normal).round_shift(30);
     const int64_t error = height_error(t) + (length_bound(displacement) >> 26);

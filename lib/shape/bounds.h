@@ -20,9 +20,10 @@ inline constexpr Bounds k_everywhere = {{-k_coord_limit, -k_coord_limit, -k_coor
 /// Empty bounds: they overlap nothing.
 inline constexpr Bounds k_nowhere = {k_everywhere.upper, k_everywhere.lower};
 
-/// The least half sizes of axis-aligned bounds that are centred at the body's position and contain the shape, m, world
-/// axes. Not for a half-space. For hulls, terrain and compounds each half size is that of the box of the half extents
-/// or of the bounding ball, whichever is less. Rounding: within 2^-28 of the body's unit of length.
+/// The half extents of the smallest axis-aligned bounds that are centred at the body's position and contain the shape,
+/// m, world axes. Not for a half-space. A hull, terrain or compound is replaced by the box of its half extents and by
+/// its bounding ball; of the two results, the smaller one counts in each axis. Rounding: within 2^-28 of the body's
+/// unit of length.
 inline Vec3<Real> half_bounds(const BodyProperties& properties, const Matrix3& rotation) {
   const Unit zero = 0.0;
   Vec3<Unit> half = {zero, zero, zero};
@@ -85,7 +86,7 @@ inline void include(const Bounds& other, Bounds& bounds) {
 }
 
 DETENT_SHARED inline bool overlap(const Bounds& a, const Bounds& b) {
-  // One branch for each axis, not two: a processor hardly predicts on which side of the other a bound lies.
+  // One branch for each axis, not two: a processor can hardly predict on which side of each other two bounds lie.
   const auto along = [](Coord lower_a, Coord upper_a, Coord lower_b, Coord upper_b) {
     return static_cast<int>(lower_a <= upper_b) & static_cast<int>(lower_b <= upper_a);
   };

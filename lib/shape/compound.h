@@ -36,7 +36,7 @@ inline constexpr uint32_t k_compound_child_bytes = 48;  ///< zero from 44 on
 
 /// Values are stored in files and never reused.
 enum class ChildKind : uint32_t {
-  ball = 1,     ///< the centre is `low`; `high` is equal to it
+  ball = 1,     ///< the centre is `low`; `high` is equal to `low`
   capsule = 2,  ///< `low` and `high` are the ends, in any order
   hull = 3,     ///< a cooked hull in the compound's axes
 };
@@ -46,9 +46,9 @@ struct CompoundChild {
   ChildKind kind;
   int32_t radius;          ///< rounding radius
   uint32_t hull_at;        ///< hull: where its bytes start, from the compound's start
-  uint32_t inner_at;       ///< hull: where its inner hull starts; it is used to test bodies that penetrate deeply
+  uint32_t inner_at;       ///< hull: where its inner hull starts, which is used to test bodies that penetrate deeply
   Vec32 low, high;         ///< hull: the least and the greatest coordinates of its vertices
-  int32_t half_thickness;  ///< `radius`, plus half of a hull's least depth behind a face
+  int32_t half_thickness;  ///< `radius`; for a hull plus half of the least depth of the hull behind one of its faces
 };
 
 /// An axis-aligned box; both ends are included. In 2^-30 of the unit.

@@ -31,7 +31,7 @@ inline uint32_t cooked_u16(const uint8_t* bytes) {
 }
 inline int32_t cooked_i16(const uint8_t* bytes) { return static_cast<int16_t>(cooked_u16(bytes)); }
 
-/// Reads the frame of a body's axes in its source's axes: the origin (three doubles) and the rotation (Q30).
+/// Reads the frame of the body in the axes of the source: the origin (three doubles) and the rotation (Q30).
 inline void read_source_frame(const uint8_t* origin_bytes, const uint8_t* rotation_bytes, double (&origin)[3],
                               int32_t (&rotation)[4]) {
   for (uint32_t axis = 0; axis < 3; ++axis) {

@@ -35,7 +35,8 @@ inline constexpr uint32_t k_hull_vertices_max = 255;
 inline constexpr uint32_t k_hull_padding = 16;  ///< vertices are padded to a multiple of this by copies of vertex 0
 inline constexpr int32_t k_hull_exponent_min = -14;
 inline constexpr int32_t k_hull_exponent_max = 15;
-/// Every vertex of a face lies at most this far below its plane, in 2^-30 of the unit; no vertex lies above it.
+/// Every vertex of a face lies at most this far below the plane of the face, in 2^-30 of the unit. No vertex lies above
+/// the plane.
 inline constexpr int32_t k_hull_face_slack = 1 << 10;
 
 /// Byte offsets of the parts after the header, from the start of the file; all are multiples of 8. With V vertices, F

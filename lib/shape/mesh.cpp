@@ -10,7 +10,8 @@ bool in_range(const Vec32& v) {
   return component(v.x) && component(v.y) && component(v.z);
 }
 
-/// Whether the vertices' bounding box starts at `low`, and the shift is the least with which its size fits in 16 bits.
+/// Whether the vertices' bounding box starts at `low`, and the shift is the least with which its extents fit in 16
+/// bits.
 bool vertices_are_good(const MeshView& mesh) {
   GridBox box = {mesh.vertex(0), mesh.vertex(0)};
   for (uint32_t i = 0; i < mesh.vertex_count; ++i) {

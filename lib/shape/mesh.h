@@ -18,7 +18,7 @@ inline constexpr uint32_t k_mesh_vertex_count_at = 24;
 inline constexpr uint32_t k_mesh_triangle_count_at = 28;
 inline constexpr uint32_t k_mesh_flags_at = 32;
 inline constexpr uint32_t k_mesh_low_at = 36;        ///< three int32: the least coordinates of the vertices
-inline constexpr uint32_t k_mesh_shift_at = 48;      ///< bounds of nodes are in 2^shift grid steps from `low`
+inline constexpr uint32_t k_mesh_shift_at = 48;      ///< bounds of nodes are in 2^shift coordinate units from `low`
 inline constexpr uint32_t k_mesh_header_bytes = 64;  ///< zero from 52 on
 
 inline constexpr uint32_t k_mesh_one_sided = 1;  ///< a bit of the flags
@@ -94,8 +94,8 @@ struct MeshView {
 /// The mesh at `bytes`. read_mesh() must have accepted them; this function checks nothing.
 MeshView mesh_view(const uint8_t* bytes);
 
-/// Computes what the file stores for a node: the bounds of its triangles, or of the nodes below, in steps of 2^shift
-/// from `low`.
+/// Computes what the file stores for a node: the bounds of its triangles, or of the nodes below, in 2^shift coordinate
+/// units from `low`.
 void mesh_node(const MeshView& mesh, uint32_t level, uint32_t i, uint16_t (&node)[6]);
 
 /// Checks untrusted bytes. In an accepted mesh the indices are valid, neighbours are mutual, the edge kinds match the

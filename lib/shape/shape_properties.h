@@ -24,8 +24,9 @@ inline Real bounding_radius_of(const BodyProperties& properties) {
   return real_from_unit(properties.bounding_radius, properties.size_exponent);
 }
 
-/// The greatest distance of a point of a sphere, capsule, or core of a box, cylinder or cone from the origin; 0 for
-/// other shapes. `size`: as BodyProperties::size. T: Real or Unit, for the sizes and the result.
+/// The greatest distance from the origin to a point of a sphere or capsule, or to a point of the core of a box,
+/// cylinder or cone; 0 for other shapes. `size`: as BodyProperties::size. T: Real or Unit, for the sizes and the
+/// result.
 template <class T>
 T core_bound(ShapeType type, const Vec3<T>& size) {
   const T zero = 0.0;
@@ -55,7 +56,7 @@ Unit hull_radius(const HullView& hull, int32_t exponent);
 struct ShapeMeasure {
   Vec3<Real> size;       ///< as BodyProperties::size; of a hull: 0
   Real smallest;         ///< the least of its sizes and its rounding
-  Real bound;            ///< the greatest distance of a point of the shape without its rounding from the origin
+  Real bound;            ///< the greatest distance from the origin to a point of the shape without its rounding
   int32_t exponent_min;  ///< the least size_exponent: of a hull or compound, that of its asset
   Real thickness = 0.0;  ///< of a compound: the half thickness, kept in BodyProperties::rounding
 };
@@ -87,8 +88,8 @@ Scaled shape_volume(const BodyProperties& properties, const AssetTable& assets =
                     const FeatureTable& features = feature_table<Features::all>);
 
 /// Sets the inverse inertia (per unit mass), m (2^size_exponent)^2 / I, about the body's axes for uniform density. It
-/// does not depend on the mass; of the size it depends only on the ratio to the unit of length. 0 about a locked axis;
-/// at most k_inverse_inertia_max. Changes nothing for a half-space or a terrain.
+/// depends on the sizes of the shape, relative to the unit of length, but not on the mass. 0 about a locked axis; at
+/// most k_inverse_inertia_max. Changes nothing for a half-space or a terrain.
 /// Relative error below 2^-24; for a hull the error of its file. Rounded shapes as in shape_volume().
 /// Source: the standard moments of the box, ball, cylinder, cone and half-ball.
 void set_inverse_inertia(BodyProperties& properties, const AssetTable& assets = {},
@@ -101,8 +102,8 @@ Real shape_extent(const BodyProperties& properties);
 /// Radius of the shape's round parts, in the body's unit of length. Ball, capsule and cylinder: the radius. Box, cone
 /// and hull: the rounding. Other shapes: 0.
 Unit round_radius(const BodyProperties& properties);
-/// The length of which the margins of the shape's bounds are fractions, m: shape_extent(), or for terrain 2^-8 of its
-/// bounding radius.
+/// The length, m, to which the margins of the shape's bounds are relative: shape_extent(), or 2^-8 of the bounding
+/// radius for a terrain.
 Real bounds_extent(const BodyProperties& properties);
 
 }  // namespace DETENT_NAMESPACE

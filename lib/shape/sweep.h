@@ -6,8 +6,8 @@
 #include "math/rotation.h"
 
 /// The motion of a body in a step, defined only here: constant velocity and constant angular velocity in world axes
-/// from the start pose. The result of the substeps only selects the sweep. Intermediate and final poses are computed
-/// from the sweep, so what was proved for the sweep holds for the simulated motion.
+/// from the start pose. The substeps only determine the sweep. Intermediate and final poses are computed from the
+/// sweep, so what is proved for the sweep holds for the simulated motion.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

@@ -43,7 +43,7 @@ bool is_bound(Unit bound, Unit expected) {
   return bound >= Unit(0.49) && bound <= Unit(1.0) && abs(bound - expected) <= k_error;
 }
 
-/// The same for a core and its rounding, because the sum of both may exceed the range of a Unit.
+/// As is_bound(), for a core and its rounding separately, because their sum may exceed the range of a Unit.
 bool is_bound_of(Unit core, const BodyProperties& properties) {
   return core <= Unit(1.5) - properties.rounding && is_bound(properties.bounding_radius, core + properties.rounding);
 }

@@ -7,8 +7,9 @@
 #include "state/view.h"
 
 // Format: a header of three 8-byte words (magic and format, the base's tick, size of the snapshot in bytes), then the
-// 8-byte words after the snapshot's header in order. A word that differs is a mask of its differing bytes, followed by
-// these bytes. A run of equal words is an empty mask, followed by the length of the run; a run at the end is left out.
+// 8-byte words after the snapshot's header in order. A word that differs is stored as a mask of its differing bytes,
+// followed by these bytes. A run of equal words is stored as an empty mask, followed by the length of the run; a run at
+// the end is left out.
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

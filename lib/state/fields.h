@@ -267,7 +267,7 @@ inline constexpr Section k_sections[] = {
 };
 inline constexpr uint32_t k_section_count = sizeof k_sections / sizeof k_sections[0];
 
-/// The size of the largest element.
+/// The size of the largest element, bytes.
 inline constexpr uint32_t k_element_bytes_max = [] {
   uint32_t most = 0;
   for (const Section& section : k_sections) most = section.element_bytes > most ? section.element_bytes : most;
@@ -293,8 +293,8 @@ inline constexpr SectionFields k_section_fields[k_section_count] = {
     section_fields("sensed", k_sensed_fields),
 };
 
-/// The size of a section, bytes, including the fill up to the alignment of the next section. The fill is always zero.
-/// It counts as further elements, or as left-over bytes.
+/// The size of a section, bytes, including the fill up to the alignment of the next section. The fill is always zero. A
+/// fill as long as an element counts as a further element; a shorter one is left over.
 inline uint32_t section_bytes(const Layout& layout, uint32_t index) {
   const uint32_t end = index + 1 < k_section_count ? layout.*k_sections[index + 1].offset : layout.persistent_bytes;
   return end - layout.*k_sections[index].offset;

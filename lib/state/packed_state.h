@@ -1,8 +1,8 @@
 #pragma once
 #include "state/view.h"
 
-/// The packed format of a state, which SnapshotRing uses. It holds only the elements in use. Of these it omits some
-/// parts if they are zero: pending forces, the second to fourth points of contacts, manifolds that are not recycled.
+/// The packed format of a state, which SnapshotRing uses. It holds only the elements in use, and omits some parts of an
+/// element if they are zero: pending forces, the second to fourth points of contacts, manifolds that are not recycled.
 /// Only this program can read the format.
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -72,7 +72,7 @@ inline Scratch scratch_of(uint8_t* block, const Layout& layout, Capacity capacit
 }
 
 #if DETENT_TASKS
-/// The rest of the memory that impacts share with the work space of the substeps.
+/// Spare memory for impacts: what their arrays leave of the memory that they share with the work space of the substeps.
 inline Span<uint64_t> impact_spare(uint8_t* block, const Layout& layout, Capacity capacity) {
   const uint64_t start = (layout.impact_paths + uint64_t{sizeof(ImpactPath)} * capacity.bodies + 7) / 8;
   return {at_offset<uint64_t>(block, static_cast<uint32_t>(8 * start)),

@@ -26,14 +26,14 @@ enum class TraceKind : uint32_t { world, body, slot_word, contact, asset, joint,
 
 /// A kind of element that is traced.
 struct TracePart {
-  uint32_t number;  ///< stored: never reused. For the state, the index of the section
+  uint32_t number;  ///< stored: never reused. For a part of the persistent state, the index of its section
   const char* name;
   const Field* fields;
   uint32_t field_count;
   uint32_t element_bytes;
   TraceKind kind;
   uint32_t key_words;  ///< number of leading 4-byte words that identify the element
-  bool sorted;         ///< the array is sorted by these words, so the index of an element has no meaning
+  bool sorted;         ///< the array is sorted by the key words, so the index of an element has no meaning
 };
 inline constexpr uint32_t k_trace_part_count = 15;
 extern const TracePart k_trace_parts[k_trace_part_count];
@@ -77,7 +77,7 @@ void visit_trace(const World& world, TraceStage stage, uint32_t contacts, const 
 /// The digest of an element. The digest of a stage is the sum over its elements.
 uint64_t trace_digest(const TracePart& part, uint32_t place, const uint8_t* bytes);
 
-/// The size of the largest element.
+/// The size of the largest element, bytes.
 inline constexpr uint32_t k_trace_bytes_max = sizeof(TraceContact) > k_element_bytes_max ? sizeof(TraceContact)
                                                                                          : k_element_bytes_max;
 static_assert(sizeof(TraceBody) <= k_trace_bytes_max && sizeof(TraceSweep) <= k_trace_bytes_max);

@@ -24,8 +24,8 @@ Vec32 to_local_29(const Matrix32& rotation, const Vec32& v) {
   return {component(rotation.column[0]), component(rotation.column[1]), component(rotation.column[2])};
 }
 
-/// The part of one body in the separation along an axis that rotates by `angular_velocity` over the horizon, and in the
-/// curvature bound K.
+/// The contribution of one body to the separation along an axis and to the curvature bound K. The axis rotates by
+/// `angular_velocity` over the horizon.
 class Side {
  public:
   /// `sign`: -1 for A, which contributes its farthest point along the axis; 1 for B, which contributes its farthest
@@ -119,8 +119,8 @@ class Separation {
         b_(*pair.b, pair.turning_b, horizon.angular_velocity_b, angular_velocity, pair.core_b, pair.exponent, 1) {
     if (is_zero(angular_velocity)) return;
     tilt_ = length_bound_32(cross_29(normal, angular_velocity));
-    // The part of the centres in K is |n x angular_velocity| (2 |V| + |angular_velocity| max |C|), where V is the
-    // displacement and C the offset of the centres.
+    // The contribution of the centres to K is |n x angular_velocity| (2 |V| + |angular_velocity| max |C|), where V is
+    // the displacement and C the offset of the centres.
     const int64_t speed = 2 * length_bound_32(horizon.displacement) +
                           product_above(length_bound_32(angular_velocity), pair.distance_max, 30);
     centre_curvature_ = product_above(tilt_, speed, 32);
@@ -169,8 +169,8 @@ class Separation {
   int64_t centre_ = 0, centre_slope_ = 0;  ///< n . C minus the floor, Q56; its slope, Q30
 };
 
-/// Returns the root x > 0 of separation + slope x - K x^2 / 2, where K is `curvature`; Q30, at most `limit`. It is only
-/// a first guess.
+/// Returns the root x > 0 of separation + slope x - K x^2 / 2, where K is `curvature`; Q30, at most `limit`. The root
+/// is only a first guess.
 int64_t parabola_root(int64_t separation, int64_t slope, int64_t curvature, int64_t limit) {
   const int64_t s = separation >> 28;                                         // Q28
   const int64_t b = slope >> 4;                                               // Q26
@@ -244,9 +244,9 @@ int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& hor
     for (int step = 0;; ++step) {
       const Separation::Value value = separation.at(x);
       if (value.separation >= 0) break;
-      // The function is concave and positive at the start, so it is positive before the root of its chord from the
-      // start to x. This root is used if the overlap at x is below 1/32 of the separation at the start, if the slope at
-      // x is not negative, and in the last step.
+      // The bound is a concave function of time and positive at the start, so it is positive before the root of its
+      // chord from the start to x. This root is used if the overlap at x is below 1/32 of the separation at the start,
+      // if the slope at x is not negative, and in the last step.
       if (step == 4 || value.slope >= 0 || -value.separation < first.separation >> 5) {
         x = x * (first.separation >> 26) / ((first.separation - value.separation + (int64_t{1} << 26)) >> 26);
         break;

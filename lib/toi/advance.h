@@ -33,21 +33,22 @@ Horizon horizon_from(const MovingPair& pair, int64_t start, int64_t length, int 
 /// The horizon that begins at `start` and lasts exactly `length`.
 Horizon horizon_over(const MovingPair& pair, int64_t start, int64_t length);
 
-/// Certifies how long the cores stay `floor` ulps apart along the axis n(t) = exp(t angular_velocity) normal, which
-/// rotates. The unit of time and of `angular_velocity` is the horizon. `frames` are the poses at the horizon's start.
-/// Returns a part of the horizon, Q30; 0 if the cores are closer than `floor` at the start. Range, rad: |w -
-/// angular_velocity| + 1 < 4 for the rotation vector w of each body, |angular_velocity| < 3. Derivation:
+/// Certifies how long the cores stay `floor` ulps apart along the rotating axis n(t) = exp(t angular_velocity) normal.
+/// Times are parts of the horizon; `angular_velocity` is the rotation over the whole horizon. `frames` are the poses at
+/// the horizon's start. Returns a part of the horizon, Q30; 0 if the cores are closer than `floor` at the start. Range,
+/// rad: |w - angular_velocity| + 1 < 4 for the rotation vector w of each body, |angular_velocity| < 3. Derivation:
 /// docs/design/time_of_impact.md, "Conservative advancement, never late".
 int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
                 const Vec32& angular_velocity, int32_t floor, uint32_t& passes);
 
 /// Calls advance() for consecutive horizons of the same length, at most k_horizons_max of them. Stops when the axis
-/// certifies less than a whole horizon or when the window ends. Returns the time that it reached.
+/// certifies less than a whole horizon or when the window ends. Returns the time up to which the axis certifies the
+/// separation.
 int64_t advance_on(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
                    const Vec32& angular_velocity, int32_t floor, uint32_t& passes);
 inline constexpr int k_horizons_max = 8;
 
-/// As advance(), by a single step along a fixed axis n. The speed of the points of a body with rotation vector w and
+/// As advance(), in a single pass along a fixed axis n. The speed of the points of a body with rotation vector w and
 /// core radius rho is bounded by rho |n x w| if `tight`, otherwise by rho |w| (ToiMethod::paper).
 int32_t advance_once(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
                      bool tight, int32_t floor, uint32_t& passes);

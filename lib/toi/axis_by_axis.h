@@ -23,9 +23,9 @@ inline Vec3<Real> point_on_a(const MovingPair& pair, const Placed& a, const Plac
 /// shapes are within the tolerance or the window ends. The result is undecided if `next_time` makes no progress
 /// although GJK reached no cap, or after `iterations_max` axes. `next_time(frames, simplex, nearest, iteration, floor)`
 /// returns a time >= frames.time up to which its method finds the cores at least `floor` ulps apart. `enough`, ulps:
-/// the result is clear at once if all core points are farther apart than this when the window begins; INT32_MAX
-/// disables this test. The result is also clear after `pair.last`. The function is always inlined, so that
-/// time_of_impact() costs no more than with a loop of its own.
+/// the result is clear at once if the distance of the cores is greater than this when the window begins; INT32_MAX
+/// disables this test. The result is also clear once the time has passed `pair.last`. The function is always inlined,
+/// so that time_of_impact() costs no more than with a loop of its own.
 template <class NextTime>
 [[gnu::always_inline]] inline void advance_by_axes(const MovingPair& pair, int iterations_max, int32_t enough,
                                                    TimeOfImpact& result, NextTime next_time) {
@@ -52,8 +52,8 @@ template <class NextTime>
     }
     const int64_t next = next_time(frames, simplex, nearest, iteration, floor);
     if (next >= pair.to || next > pair.last) return set_clear(result);
-    // A rim has infinitely many support points. If GJK stopped at its iteration cap with too coarse an axis, the next
-    // round continues from its simplex.
+    // A rim has infinitely many support points, so GJK may stop at its iteration cap with too coarse an axis. The next
+    // round then continues from its simplex.
     if (next == time && nearest.outcome != GjkOutcome::capped) break;
     time = next;
     result.time = Fraction::from_raw(time);

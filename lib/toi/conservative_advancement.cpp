@@ -23,7 +23,7 @@ int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames
     return advance_tracking(pair, frames, simplex, features, nearest, floor, progress, result);
   }
   const Horizon horizon = horizon_from(pair, time, pair.to - time, k_horizon_quarters);
-  if (pair.planar) {  // only the plane's normal can separate them
+  if (pair.planar) {  // only the plane's normal can separate the shapes
     const Vec32& plane =
         pair.a->type == ShapeType::half_space ? horizon.angular_velocity_a : horizon.angular_velocity_b;
     return advance_on(pair, frames, horizon, nearest.normal, plane, floor, result.passes);

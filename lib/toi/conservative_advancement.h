@@ -8,7 +8,7 @@ inline namespace DETENT_NAMESPACE {
 
 inline constexpr int k_axis_methods = 6;  ///< the first values of ToiMethod: methods with certified axes (advance.h)
 
-/// The library's own method: on no kind of query is it much slower than the best method (docs/bench).
+/// The method that the library uses. On no kind of query is it much slower than the best method (docs/bench).
 #if defined(DETENT_TOI_METHOD)
 inline constexpr ToiMethod k_toi_method = ToiMethod::DETENT_TOI_METHOD;
 #else
@@ -27,8 +27,8 @@ inline constexpr int k_toi_iterations_max = 24;
 inline constexpr int k_toi_iterations_compared_max = 256;
 
 /// The time of impact of a prepared pair by conservative advancement along axes of the method's kind. `method` is one
-/// of the first k_axis_methods. `enough`, ulps: the result is clear at once if all core points are farther apart than
-/// this when the window begins.
+/// of the first k_axis_methods. `enough`, ulps: the result is clear at once if the distance of the cores is greater
+/// than this when the window begins.
 void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfImpact& result,
                               int32_t enough = INT32_MAX);
 

@@ -19,8 +19,8 @@ int longest_of(const Int128 (&value)[4], Int128 error) {
   return length;
 }
 
-/// The least x, Q30, rounded down, at which the lower convex hull of the Bernstein coefficients is not above 0; above 1
-/// if the hull is above 0 everywhere. Range: coefficients below 2^31.
+/// The least x, Q30, rounded down, at which the lower convex hull of the Bernstein coefficients is not above 0. The
+/// result is above 1 if the hull is above 0 everywhere. Range: coefficients below 2^31.
 int64_t first_descent(const int64_t (&c)[4]) {
   if (c[0] <= 0) return 0;
   int64_t first = 3 * (k_whole + 1);

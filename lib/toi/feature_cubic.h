@@ -13,8 +13,8 @@ struct OpenPart {
 inline constexpr int64_t k_whole = int64_t{1} << 30;
 inline constexpr OpenPart k_open = {0, k_whole}, k_closed = {1, 0};
 
-/// The rounding of corners to 29 bits and a sign, and their error. Products of two such components fit 64 bits,
-/// products of three fit 128 bits (tests/guards/proofs/feature.g).
+/// How corners are rounded to 29 bits and a sign, and a bound on their error. Products of two such components fit 64
+/// bits, products of three fit 128 bits (tests/guards/proofs/feature.g).
 struct Shortening {
   int shift;             ///< the number of bits dropped; rounding is to nearest
   int64_t distance_max;  ///< bound on every component after the shift

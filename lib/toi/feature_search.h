@@ -87,7 +87,7 @@ constexpr OpenPart both(const OpenPart& a, const OpenPart& b) {
 struct Interval {
   int64_t from, to;
 };
-/// Searches the first contact in intervals of time, earliest first. It cuts off the parts of an interval that are
+/// Searches the first contact in intervals of time, earliest first. Cuts off the parts of an interval that are
 /// certainly clear and halves the rest. An interval ends the search with a hit if the features are near at its
 /// beginning or if it is too short to halve. The result is clear if no interval is left, and undecided after
 /// k_feature_intervals_max intervals. `Path` has span(from, to), which returns a FeatureSpan. It may have roots(from,

@@ -15,7 +15,7 @@ struct FeatureSpan {
 };
 
 /// The part of the interval that may hold a contact; there is certainly no contact outside of it. The result is empty
-/// if the hull of all corners at both ends is farther from the origin than 1.8 balls plus 2^-26 of the largest corner;
+/// if the hull of all corners at both ends is farther from the origin than 1.8 `ball` plus 2^-26 of the largest corner;
 /// it may be empty for nearer corners too.
 OpenPart open_part(const FeatureSpan& span);
 

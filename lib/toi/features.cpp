@@ -7,7 +7,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int k_tries_max = 3;
-constexpr int k_tracking_quarters = 4;  ///< quarter radians: horizon_from() limit for predicted axes, 1 rad
+constexpr int k_tracking_quarters = 4;  ///< quarter radians; limit of horizon_from() for predicted axes: 1 rad
 constexpr int32_t k_relative_angular_velocity_max =
     3 << 28;  ///< 1.5 rad, Q29, relative to the base rotation: the limit of the formats of advance()
 
@@ -149,7 +149,8 @@ int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Sim
   const int64_t kept = !edges && distance * 3 / 10 > floor ? distance * 3 / 10 : floor;
   const int64_t speed = closing_speed(pair, features, frames, widest, normal);
   if (speed > 0) length = part_rounded(widest.length, ratio(distance - kept, speed));
-  // After a close approach, the closing speed does not tell how long an axis is valid.
+  // After a close approach, the closing speed does not tell how long an axis is valid. The last progress then limits
+  // the length.
   if (progress < widest.length / 4) {
     const int64_t hope = 4 * progress + (int64_t{1} << 20);
     if (length > hope) length = hope;

@@ -13,8 +13,9 @@ inline namespace DETENT_NAMESPACE {
 inline constexpr int32_t k_certain = 64;
 
 /// Whether an axis certifies that the bodies do not touch in the whole window. The axis is `normal` when the window
-/// begins and rotates with one of the bodies. Pairs that are not tested give false: with a half-space, of two cylinders
-/// or cones, with an empty window, or if the rotation angles of both bodies add up to more than 2 rad.
+/// begins and rotates with one of the bodies. False for pairs that are not tested: pairs with a half-space, pairs of
+/// two shapes that are cylinders or cones, pairs with an empty window, and pairs whose rotation angles add up to more
+/// than 2 rad.
 bool stays_clear(const MovingPair& pair, const Vec32& normal);
 
 /// The distance of the cores, ulps, beyond which they cannot come to touch in the window: the argument `enough` of

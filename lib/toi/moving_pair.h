@@ -51,8 +51,8 @@ Turning still(const Quat32& rotation);
 /// The rotation of a motion. Errors: not_normalised; out_of_range for a rotation of more than 2^16 rad. After an error
 /// `turning` may be partly written.
 Status turning_of(const Motion& motion, Turning& turning);
-/// The rotation of a shape of a body with this rotation: a shape whose core is a point at the body's centre counts as
-/// not rotating.
+/// Returns the rotation of `convex`, a shape of a body with the rotation `turning`. A shape whose core is a point at
+/// the body's centre counts as not rotating.
 Turning rotation_of(const Convex& convex, const Turning& turning);
 
 /// The placement of the bodies of a pair at a time.
@@ -71,7 +71,7 @@ struct MovingPair {
   Vec64 displacement;                      ///< of B relative to A over the step, 2^-46 m
   bool absolute = false;                   ///< A and B are moved separately before the difference is taken
   Vec64 displacement_a;                    ///< translation of A over the step, 2^-46 m
-  Vec64 offset_whole, displacement_whole;  ///< including the part along a resting half-space's plane
+  Vec64 offset_whole, displacement_whole;  ///< the same, with the part along a resting half-space's plane
   bool planar;                             ///< one of the two shapes is a half-space
   int64_t from, to;                        ///< the window in which the shapes can touch; from > to: never
   int64_t last = k_time_end;               ///< a search may end as clear when it has passed this time

@@ -54,9 +54,9 @@ inline int64_t screw_ball(int64_t radius, const RelativePose& start, const Relat
 
 /// The part of an interval in which the features of a path may be coplanar. `Path` has set_differences_at(), a kind and
 /// a ball. The condition that a moving line meets a line at rest, or a moving point a plane at rest, is linear in the
-/// coordinates of the moving feature. They contain the entries of the rotation, which are quadratic in t after
-/// multiplication by 1 + t^2 g^2, and products of such entries with the displacement along the axis, which is linear in
-/// t. The condition is therefore a cubic.
+/// coordinates of the moving feature. These coordinates contain the entries of the rotation, which are quadratic in t
+/// after multiplication by 1 + t^2 g^2, and products of such entries with the displacement along the axis, which is
+/// linear in t. The condition is therefore a cubic.
 template <class Path>
 OpenPart screw_roots(const Path& path, const ScrewMotion& screw, int64_t from, int64_t to) {
   Vec64 corners[4][3];
@@ -73,8 +73,8 @@ OpenPart screw_roots(const Path& path, const ScrewMotion& screw, int64_t from, i
   return reduced_roots(corners, weight, path.ball + 1);  // a third of the interval is rounded down
 }
 
-/// Of the two screws between the poses, the one with the smaller rotation angle. Errors: out_of_range for a rotation of
-/// more than 2.65 rad, and for a component of a position above 2^11 m.
+/// Finds the screw motion between two poses. Of the two possible ones, takes the one with the smaller rotation angle.
+/// Errors: out_of_range for a rotation of more than 2.65 rad, and for a component of a position above 2^11 m.
 Status screw_between(const RelativePose& start, const RelativePose& end, ScrewMotion& screw);
 
 }  // namespace DETENT_NAMESPACE

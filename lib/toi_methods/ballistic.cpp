@@ -15,7 +15,7 @@ constexpr int64_t k_quarter_turn = int64_t{1} << 32;  ///< 2^-34 revolutions
 constexpr int64_t k_phase_error = 2;       ///< of a half angle, 2^-34 revolutions: the roundings of rate and shift
 constexpr int64_t k_sine_error_above = 1;  ///< error of sine_cosine_raw(), 2^-30, rounded up
 
-/// Bounds on how much a motion has reduced the separation, and on the speed at which it reduces it further.
+/// Bounds on how much a motion has reduced the separation, and on the speed at which the separation decreases further.
 struct Taken {
   int64_t displacement;  ///< ulps
   int64_t speed;         ///< ulps over the step

@@ -12,9 +12,9 @@ inline namespace DETENT_NAMESPACE {
 /// across the axis. Here rho is the core radius, and axis and angle are those of the rotation. This bound is never more
 /// than the usual rho |w| t, with w the angular velocity. The remaining gap is a convex function of time. Newton's
 /// method approaches its first root from the safe side, with values and slopes that are rounded outwards. The result is
-/// never late, for every shape. The bound does not exist for a rotating plane, whose points have no greatest distance.
-/// For such a plane the axis is the plane's normal, which rotates (conservative_advancement()), as in all methods.
-/// Errors: undecided after k_toi_iterations_compared_max normals.
+/// never late, for every shape. The bound does not exist for a rotating half-space, because its points have no greatest
+/// distance from its position. For a rotating half-space, the axis is the normal of its plane, which rotates
+/// (conservative_advancement()), as in all methods. Errors: undecided after k_toi_iterations_compared_max normals.
 /// Source: the conservative advancement of B. Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems,
 /// PhD thesis, Berkeley 1996. The chord bound and the search are Detent's own.
 void ballistic_advancement(const MovingPair& pair, TimeOfImpact& result);

@@ -107,7 +107,7 @@ Quintic through(const int64_t (&value)[k_degree + 1], int64_t noise) {
   return quintic;
 }
 
-/// The volume of a feature pair's corners times weight_at(), in some unit.
+/// The volume of a feature pair's corners times weight_at(), up to a constant factor.
 template <class Path>
 Quintic coplanarity(const Path& path, const Interval& interval) {
   Vec64 corner[k_degree + 1][3];

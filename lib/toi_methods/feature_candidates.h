@@ -5,8 +5,8 @@
 /// Selects the features of two polytopes that may be the first to touch in a part of a step. Where polytopes first
 /// touch, the outward normals of A that are also negated outward normals of B form a cone. Each ray on the border of
 /// the cone is either the normal of a face that touches a vertex of the other polytope, or it is perpendicular to an
-/// edge of each polytope, and these edges touch. A pair of features is therefore a candidate only if it can be extreme
-/// in this sense, and only if the displacements of its vertices bring it together.
+/// edge of each polytope, and these edges touch. A pair of features is therefore a candidate only if it can give such a
+/// ray, and only if the displacements of its vertices can bring the two features together.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -19,8 +19,9 @@ struct StepPart {
   /// of a point of A and a point of B.
   int64_t bend;
   Vec64 displacement;  ///< translation of B relative to A over the part, 2^-46 m
-  /// Bound, 2^-46 m, for two points that touch in the part: along the normal that their features have at the beginning,
-  /// the relative displacement of the points over the part differs from `displacement` by at most this bound.
+  /// A bound, 2^-46 m, for two points that touch in the part. Over the part, the relative displacement of these points,
+  /// along the normal that their features have at the beginning, differs from that of `displacement` by at most this
+  /// bound.
   int64_t stray;
 
   /// Whether points that touch with this outward normal of A at the beginning may approach. When two bodies first
@@ -96,7 +97,7 @@ class CandidateSide {
 int64_t separation(const PlacedPair& pair, const Vec32& direction, const CandidateSide& a, const CandidateSide& b);
 
 /// Selects on both sides the vertices whose paths can bring them together along `normal`, which points from A to B in
-/// world axes. Returns whether there are any.
+/// world axes. Returns whether there are any. `apart`: as FeaturePairs::apart_.
 bool choose(const StepPart& part, const Vec32& normal, CandidateSide& a, CandidateSide& b, int64_t (&apart)[2]);
 
 /// A world direction in the axes of a body.

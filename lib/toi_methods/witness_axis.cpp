@@ -13,7 +13,7 @@ constexpr int64_t k_no_witness = -(int64_t{1} << 56);
 enum class MovesWith {
   nothing,
   a,      ///< a face of A, or an edge of A towards a vertex
-  b,      ///< the same of B
+  b,      ///< a face of B, or an edge of B towards a vertex
   edges,  ///< an edge of each
 };
 

@@ -7,8 +7,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Wakes the body and all bodies of its sleeping group, and adds the body to the active set. Calls that change the
-/// motion of a body, or the conditions for it, use this.
+/// Wakes the body and all bodies that fell asleep with it, and adds the body to the active set. Used by calls that
+/// change the motion of a body, or a property that affects its motion.
 inline void wake_slot(StateView<uint8_t>& state, uint32_t slot) {
   const StepCacheView step = cache_of(state);
   state.world.idle = 0;
@@ -21,7 +21,7 @@ inline void look_at_again(StateView<uint8_t>& state, uint32_t slot) {
   state.world.idle = 0;
   cache_of(state).active.set(slot);
 }
-/// Wakes the bodies that touch the body or share a joint with it. Calls that move, change or remove the body use this.
+/// Wakes the bodies that touch the body or share a joint with it. Used by calls that move, change or remove the body.
 inline void wake_neighbours(StateView<uint8_t>& state, uint32_t slot) {
   for (const ContactState& contact : state.contacts.first(state.world.contact_count)) {
     if (contact.body_a == slot) wake_slot(state, contact.body_b);

@@ -19,7 +19,7 @@ Status set_body_inverse_inertia(const World& world, BodyProperties& properties);
 Status set_body_inertia(const Vec3<Scaled>& inertia, BodyProperties& properties);
 /// Sets the mass from the volume of the shape and `density`, kg/m^3. Errors: out_of_range.
 Status set_body_density(const World& world, Scaled density, BodyProperties& properties);
-/// Check and set the properties of their names. Errors: bad_argument, out_of_range.
+/// Each function checks and sets the properties in its name. Errors: bad_argument, out_of_range.
 Status set_body_material(const Material& material, BodyProperties& properties);
 Status set_body_damping(Real linear, Real angular, BodyProperties& properties);
 Status set_body_gravity_scale(Real scale, BodyProperties& properties);

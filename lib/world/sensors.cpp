@@ -17,9 +17,9 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The largest distance at which a body counts as within a sensor is 2^k_within_power of the pair's smaller extent. It
-/// exceeds the tolerance of a time of impact, so a body that hits the sensor is within it at that time. It is below the
-/// margin of sensed_bounds().
+/// The largest distance at which a body counts as within a sensor is 2^k_within_power times the pair's smaller extent.
+/// This distance exceeds the tolerance of a time of impact, so a body that hits the sensor is within the sensor at that
+/// time. It is below the margin of sensed_bounds().
 constexpr int k_within_power = -14;
 
 /// Bounds that contain the body from its current time to the end of the tick. Their margin covers the distance of
@@ -145,8 +145,9 @@ void add(SensorStage& stage, SensedKeys& keys, uint64_t key) {
   if (keys.add(key, lost)) stage.overflow.add(CapacityEventType::sensed, pair_low(lost), pair_high(lost) >> 1);
 }
 
-/// Adds the pair to `found` if the body is within the sensor at the end of the tick. Also adds it, as passed through,
-/// if the body was not within the sensor in the last step and touches it only on the last segment of its sweep.
+/// Adds the pair to `found` if the body is within the sensor at the end of the tick. Also adds the pair, as passed
+/// through, if the body was not within the sensor in the last step and touches it only on the last segment of its
+/// sweep.
 void evaluate_pair(SensorStage& stage, uint32_t sensor, uint32_t body) {
   if (!may_sense(stage, sensor, body)) return;
   const uint64_t within = sensed_key(sensor, body, false), through = sensed_key(sensor, body, true);

@@ -8,8 +8,8 @@
 
 /// The sensor stage. It finds the bodies that are within a sensor at the end of a step, and the bodies that only passed
 /// through it. It tests only pairs with a body that moved or that a call changed; the other pairs keep their result.
-/// Whether a body is within a sensor depends on the poses alone. Therefore a machine that restored a state, which tests
-/// all pairs, finds the same result.
+/// Whether a body is within a sensor depends on the poses alone. Therefore a machine that has just restored a state,
+/// and so tests all pairs, finds the same result.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -34,8 +34,8 @@ struct SensorStage {
   Span<const BodySweep> sweeps;
   StepCacheView cache;
   BitSet changed;                  ///< bodies that moved in the last step or were changed since
-  Span<const SensedState> before;  ///< pairs that were within at the end of the last step
-  SensedKeys passed, found;        ///< pairs found before the last segment of a sweep; all pairs found
+  Span<const SensedState> before;  ///< pairs whose body was within the sensor at the end of the last step
+  SensedKeys passed, found;  ///< `passed`: pairs found before the last segment of a sweep. `found`: all pairs found
   Overflow& overflow;
   uint32_t undecided = 0;
 };
@@ -45,8 +45,8 @@ struct SensorStage {
 void note_changed(const StepCacheView& cache, uint32_t slots_used, BitSet changed);
 
 /// Finds the sensors that the body `slot` touches on a segment of its sweep. Adds each pair to `passed` if the body was
-/// not within the sensor after the last step. `until`: the end of the segment, which is an impact before the end of the
-/// tick. `stage`: points to a SensorStage.
+/// not within the sensor after the last step. `until`: the end of the segment, which is the time of an impact before
+/// the end of the tick. `stage`: points to a SensorStage.
 void sense_sweep(void* stage, uint32_t slot, Fraction until);
 
 /// Finds the pairs of a sensor and a body that is within it at the end of the tick, and stores them in the state. Also

@@ -27,7 +27,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Lists the slots of the active set, which are the moving bodies after some bodies were woken, ascending.
+/// Lists the slots of the active set, ascending. After some bodies were woken, these are the moving bodies.
 Span<const uint32_t> list_moving(BitSet active, Span<uint32_t> slots) {
   uint32_t count = 0;
   active.for_each([&](uint32_t slot) { slots[count++] = slot; });
@@ -85,7 +85,8 @@ class Step {
   void finalise();
   void store();
 
-  /// Number of elements for with_team() of a stage that calls the caller's filter rules: they stay on one thread.
+  /// The number of elements that a stage passes to with_team() if it calls filter rules: 0 if the caller has any, so
+  /// that one thread calls them.
   uint32_t unless_ruled(uint32_t elements) const { return world_.hooks.filter_rules.count == 0 ? elements : 0; }
   /// Calls work(team) with the threads that the caller lends. `team` is null if there are none, or few elements.
   template <class Work>
@@ -292,9 +293,9 @@ Island Step::island_group(uint32_t first, uint32_t& count) const {
   return group;
 }
 
-/// Whether other threads may solve other islands at the same time, and one thread is to solve this one. Islands with
-/// kinematic bodies, and those with joints to bodies that do not move, write to bodies that are not theirs. In an
-/// island with at least `large` contacts or bodies, threads share the loops.
+/// Whether one thread solves this island while other threads solve other islands. This is not so for an island with
+/// kinematic bodies, or with joints to bodies that do not move, because its solution writes to bodies outside the
+/// island. Nor is it so for an island with at least `large` contacts or bodies: there the threads share the loops.
 bool Step::is_solved_by_one_thread(const Island& island, uint32_t large) const {
   if (island.contact_count >= large || island.body_count >= large) return false;
   for (const uint32_t index : Span<const uint32_t>{joints_.order.data + island.first_joint, island.joint_count}) {
@@ -320,7 +321,7 @@ void Step::solve_island(const Island& island, StepSettings& settings) {
     return;
   }
   const IslandJoints joints = {jointed ? joint_ops_ : nullptr, &island, &joints_};
-  const uint32_t first_lanes = island.first_contact / 4;  // islands get different ones
+  const uint32_t first_lanes = island.first_contact / 4;  // no two islands use the same LaneSpace
   const Span<LaneSpace> lanes = {scratch_.lane_contacts.data + first_lanes, lane_contact_count(island.contact_count)};
   const SolveCount count = solve(settings, solver_bodies_, slots, {order, contacts_, lanes}, joints);
   Team::add(report_.saturations, count.clamped);
@@ -336,8 +337,8 @@ void Step::solve_island(const Island& island, StepSettings& settings) {
 
 void Step::solve_islands(Team* team) {
   StepSettings settings = shared_settings(settings_, team);
-  // Lists of islands that are solved later, in BodyWork::run, which is not needed any more: those for one thread from
-  // the front, the others from the back.
+  // Two lists of islands that are solved later. They lie in BodyWork::run, which is not needed any more: the islands
+  // for one thread from the front on, the others from the back.
   const auto front = [&](uint32_t k) -> uint32_t& { return bodies_.work[k].run; };
   const auto back = [&](uint32_t k) -> uint32_t& { return bodies_.work[islands_.count - 1 - k].run; };
   uint32_t for_one_thread = 0, for_all = 0, grouped = 0;
@@ -371,7 +372,8 @@ void Step::raise_events() {
                                       contact_events());
 }
 
-/// Makes the sweeps of the tick, moves bodies along their sweeps to their impacts, and finds the bodies within sensors.
+/// Computes the sweeps of the tick, moves bodies along their sweeps to their impacts, and finds the bodies within
+/// sensors.
 void Step::advance() {
   with_team(moving_.count, [&](Team* team) {
     report_.saturations += share_sum(team, moving_, k_bodies_shared, [&](Span<const uint32_t> part) {

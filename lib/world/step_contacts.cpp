@@ -13,16 +13,17 @@ namespace {
 struct PairLengths {
   Real at_rest;           ///< contact margin of a pair that does not move
   Real margin;            ///< speculative_distance()
-  Real reach;             ///< as `margin`, if bodies that move together count as slow
-  Real recycle_distance;  ///< largest relative motion for which its contact points are recycled
+  Real reach;             ///< as `margin`, but from the relative speed: bodies that move together count as slow
+  Real recycle_distance;  ///< largest relative motion for which the pair's contact points are recycled
 
   /// Whether a point that was beyond `margin` when the contact points were computed is still too far away to touch in
   /// this tick.
   bool is_slow() const { return reach + recycle_distance <= scale_by_power(at_rest, 1); }
 };
 
-/// The speed at which the surface of a body moves in the axes of another one, to first order, m/s: at least the speed
-/// at which both approach. Bodies that move together have none. Returns false if a value is out of range.
+/// An upper bound, to first order, of the speed at which the surface of body `slot` moves in the axes of body `frame`,
+/// m/s; so also of the speed at which the two approach. 0 if they move together. Returns false if a value is out of
+/// range.
 bool speed_in_frame(const StepBodies& bodies, uint32_t slot, uint32_t frame, Real& speed) {
   constexpr int k_power_max = 6;  // 2^6 m, rad/s: the sums of products are in the range of a Real
   const auto angular_velocity = [&](uint32_t of, Vec3<Real>& found) {
@@ -50,7 +51,7 @@ PairLengths lengths_of(const StepSettings& settings, const StepBodies& bodies, u
   const bool jointed = a.joint_body != k_no_link || b.joint_body != k_no_link;
   const Real margin = speculative_distance(settings, extent, a.speed + b.speed, jointed);
   PairLengths lengths = {extent * settings.contact_margin, margin, margin, extent * settings.contact_recycle_distance};
-  // Impacts do not stop jointed bodies: their contacts must foresee all that the solver can do.
+  // Impacts do not stop jointed bodies. So their contacts must cover every motion that the solver can cause.
   if (jointed || lengths.is_slow() || a.speed == k_zero || b.speed == k_zero) return lengths;
   const bool a_is_smaller = a.extent < b.extent;
   Real speed;
@@ -188,7 +189,7 @@ struct Collider {
       mark_sliver(slot_a, slot_b);
   }
 
-  /// Records for the impacts that these bodies may be near each other although they have no contact.
+  /// Records, for continuous collision, that these bodies may be near each other although they have no contact.
   void mark_sliver(uint32_t slot_a, uint32_t slot_b) const {
     alone(settings.team, [&] {
       bodies.work[slot_a].colours |= k_has_sliver;
@@ -217,9 +218,9 @@ struct Collider {
     }
   }
 
-  /// Leaves the rebounds of pairs of dynamic bodies to continuous collision (impacts). Excepted are pairs with parts,
-  /// and pairs of which a body had a normal impulse with any dynamic body in the last tick, the pair's own contact
-  /// included: within a pile there would be too many impacts.
+  /// Leaves the rebounds of pairs of dynamic bodies to continuous collision (impacts). The solver keeps the rebounds of
+  /// pairs with parts. It also keeps those of pairs in which a body had a normal impulse from a dynamic body in the
+  /// last tick, the other body of the pair included: within a pile there would be too many impacts.
   __attribute__((noinline)) void leave_rebounds_to_impacts() const {
     const Span<ContactWork> contacts = room.contacts().first(count.contacts);
     const auto for_each_leaning = [&](const auto& visit) {
@@ -392,12 +393,12 @@ struct Collider {
 /// The part of the contacts that a thread finds: those of consecutive pairs.
 struct ContactPart {
   uint32_t first_pair, pair_count;
-  uint32_t first;  ///< of its room
-  uint32_t count;  ///< size of its room, then number of its contacts
+  uint32_t first;  ///< index of the first contact of the part's room
+  uint32_t count;  ///< at first how many contacts the room holds; later the number of contacts found
 };
 
-/// Starts the bodies of the pairs of the next part, and sets its room: as many contacts as they can have. Returns false
-/// if the room left does not suffice, or if there are no more pairs.
+/// Starts the bodies of the pairs of the next part, and sets the part's room: as many contacts as its pairs can have.
+/// Returns false if the remaining room does not suffice, or if there are no more pairs.
 bool start_part(Collider& collider, Span<const uint64_t> pairs, ContactPart& part) {
   uint32_t contacts = 0;
   part.pair_count = 0;
@@ -428,8 +429,8 @@ void collide_part(Collider& all, Span<const uint64_t> pairs, ContactPart& part) 
   Team::add(all.rebounds, collider.rebounds);
 }
 
-/// Collides pairs on several threads, as long as the room suffices for all contacts that they can have. Returns the
-/// number of these pairs.
+/// Collides pairs on several threads, as long as the room suffices for all contacts that the pairs can have. Returns
+/// the number of pairs collided.
 uint32_t collide_shared(Collider& collider, Span<const uint64_t> pairs) {
   constexpr uint32_t k_parts_max = 128;
   ContactPart parts[k_parts_max];

@@ -50,7 +50,7 @@ struct ContactCount {
   uint32_t contacts = 0;
   uint32_t points = 0;
   uint32_t dropped = 0;
-  uint32_t parts_dropped = 0;  ///< dropped contacts of pairs with more than eight: the shallowest
+  uint32_t parts_dropped = 0;  ///< contacts beyond eight of one pair; the shallowest of the pair are dropped
   uint32_t capped = 0;
   uint32_t recycled = 0;
 };
@@ -68,7 +68,7 @@ struct ContactRoom {
   uint32_t count;  ///< number of elements that may be used
   bool keeps_manifolds;
 #if DETENT_TASKS
-  uint32_t first = 0;  ///< the first of them
+  uint32_t first = 0;  ///< index of the first element that may be used
 #else
   static constexpr uint32_t first = 0;
 #endif
@@ -81,8 +81,8 @@ struct ContactRoom {
   BitSet leaning() const { return scratch.candidates; }
 };
 
-/// Collides the pairs in ascending order, and makes the rows of their contacts, sorted by pair and part. If `room` is
-/// too small, the shallowest contacts are dropped.
+/// Collides the pairs in ascending order, and computes the rows of their contacts, sorted by pair and part. If `room`
+/// is too small, the shallowest contacts are dropped.
 ContactCount find_contacts(const StepSettings& settings, const StepBodies& bodies, const LastContacts& last,
                            const ContactRoom& room, Overflow& overflow, Span<const uint64_t> pairs);
 

@@ -6,18 +6,18 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// What a step records besides its report.
+/// What a step records besides its report, and inputs of a step for rollback.
 struct StepProbe : ImpactProbe {
 #if DETENT_SPARSE
-  Span<const JointState> joints = {};               ///< in: JointStage::others
-  BitSet anchoring = {};                            ///< in: JointStage::anchoring
+  Span<const JointState> joints = {};               ///< input: JointStage::others
+  BitSet anchoring = {};                            ///< input: JointStage::anchoring
   Span<const JointBody> joint_bodies = {};          ///< the bodies of the joints, in the block
-  uint32_t joint_couplings = 0, joint_numbers = 0;  ///< used of these pools of the joints
+  uint32_t joint_couplings = 0, joint_numbers = 0;  ///< entries used of the pools of these names
 #endif
 };
 
-/// As step(), for tests and rollback. `probe` records the sweeps of the bodies, and can switch off the filters of
-/// continuous collision. StepObserver::step is not called.
+/// As step(), for tests and rollback. `probe` records the sweeps of the bodies, and can switch off the filters by which
+/// continuous collision skips pairs. StepObserver::step is not called.
 StepReport step_probed(World& world, StepProbe& probe);
 
 }  // namespace DETENT_NAMESPACE

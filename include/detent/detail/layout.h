@@ -48,15 +48,15 @@ constexpr uint32_t joint_number_count(Capacity capacity) {
   return all < most ? all : most;
 }
 
-/// Memory for joint_number_count() numbers. With lanes, the rows of a block are rounded up to 4 or 8 numbers: with at
-/// most 16 couplings and 256 numbers for each joint, that makes at most 544. 9/4 is the next round factor.
+/// Memory for joint_number_count() numbers. With lanes, the rows of a block are rounded up to 4 or 8 numbers. The 256
+/// numbers of a joint, in at most 16 couplings, then take the room of at most 544. The factor 9/4 gives 576.
 template <bool has_lanes>
 constexpr uint32_t joint_number_room(Capacity capacity) {
   const uint32_t count = joint_number_count(capacity);
   return has_lanes && k_may_have_joint_lanes ? count / 4 * 9 : count;
 }
 
-/// Largest number of groups of four of these contacts that are solved at once.
+/// The largest number of groups of four that `contacts` contacts can form. A group is solved at once.
 constexpr uint32_t lane_contact_count(uint32_t contacts) { return k_may_have_lanes ? contacts / 4 : 0; }
 
 constexpr uint32_t slot_words(uint32_t bodies) { return (bodies + 63) / 64 * 2; }
@@ -66,8 +66,8 @@ constexpr bool in_range(Capacity capacity) {
          capacity.assets <= k_capacity_max && capacity.joints <= k_capacity_max && capacity.sensed <= k_capacity_max;
 }
 
-/// The layout for a capacity in range; `fits` is false if the block would need 2^32 bytes or more. Without lanes it is
-/// the same on every target.
+/// The layout for a capacity in range; `fits` is false if the block would need 2^32 bytes or more. The layout without
+/// lanes is the same on every target.
 template <bool has_lanes = k_may_have_lanes>
 DETENT_SHARED constexpr Layout layout_of(Capacity capacity, bool& fits) {
   uint64_t end = 0;
@@ -111,8 +111,8 @@ DETENT_SHARED constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.islands = place(sizeof(Island), capacity.bodies);
   layout.island_bodies = place(sizeof(uint32_t), capacity.bodies);
   layout.sweeps = place(sizeof(BodySweep), capacity.bodies);
-  // After the sweeps are made, the impacts use the same memory as the work space of the substeps. The rest of it, up to
-  // manifold_work, is spare memory for them (step_scratch.h).
+  // Once the sweeps are known, the work space of the substeps is no longer used, and the impacts use its memory. What
+  // they leave, up to manifold_work, is their spare memory (step_scratch.h).
   const uint64_t moved = end;
   layout.body_work = place(sizeof(BodyWork), capacity.bodies);
   layout.contact_order = place(sizeof(ContactOrder), capacity.contacts);

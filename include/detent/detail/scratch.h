@@ -26,9 +26,9 @@ struct alignas(8) TreeRoot {
   uint32_t zero;
 };
 
-/// The header of the data that is cached between ticks, so that steps can skip resting bodies: the tree, the bounds and
-/// the (zero) sweeps of the bodies in the tree, the active set of the next step, and the list of awake contacts. All of
-/// this data can be recomputed from the state.
+/// The header of the step cache: data that is kept between ticks so that steps can skip resting bodies. The cached data
+/// are the tree, the bounds and the (zero) sweeps of the bodies in the tree, the active set of the next step, and the
+/// list of awake contacts. All of them can be recomputed from the state.
 struct alignas(8) StepCache {
   uint32_t fresh;           ///< 0: the next step recomputes the cache
   uint32_t contacts_known;  ///< 1: every contact with an awake body is in the list of awake contacts
@@ -46,8 +46,8 @@ struct BoundsKey {
   uint32_t across_lower, across_upper;  ///< along the other two axes, 15 bits each
 };
 
-/// A body's inverse inertia (per unit mass) in world axes: angular velocity = inverse inertia x angular momentum, in the units
-/// of angular_velocity.h. A symmetric matrix; values are mantissas times 2^exponent.
+/// A body's inverse inertia (per unit mass) in world axes: angular velocity = inverse inertia x angular momentum, in
+/// the units of angular_velocity.h. A symmetric matrix; values are mantissas times 2^exponent.
 struct alignas(sizeof(Unit)) WorldInverseInertia {
   Vec3<Unit> row[3];
   int32_t exponent;
@@ -67,11 +67,11 @@ inline constexpr uint64_t k_has_sliver = uint64_t{1} << 63;
 
 /// A body during the substeps. Members from `axes` to `speed` are set at the start of the tick.
 struct alignas(8) BodyWork {
-  uint64_t colours;     ///< bit set of the colours of its contacts, and k_has_sliver
+  uint64_t colours;     ///< bit set of the colours of the body's contacts, and k_has_sliver
   uint32_t island;      ///< while islands are found: a link towards the island's first body; then the island's index
-  uint32_t run;         ///< as `island`, for its run: a chain of bodies that touch at most two others each
+  uint32_t run;         ///< as `island`, for the body's run: a chain of bodies that touch at most two others each
   uint32_t run_length;  ///< of the run's first body: number of bodies in the run
-  uint32_t contacts;    ///< number of its contacts
+  uint32_t contacts;    ///< number of the body's contacts
   uint32_t supports;    ///< number of contacts that support it, while loads are estimated
   uint32_t joint_body;  ///< its index among the bodies that have joints, else UINT32_MAX
   alignas(sizeof(Real)) Scaled carried;  ///< its own mass plus that of the bodies on it, kg, while loads are estimated
@@ -84,13 +84,14 @@ struct alignas(8) BodyWork {
   Real fall;                ///< fall_speed() of `extent`, m/s
   Real speed;               ///< upper bound of the speed of any point of the body, m/s
   Vec3<Real> displacement;  ///< since the start of the tick, m
-  Vec3<Real> rotation_vector;          ///< sum of angular velocity x substep x 2^size_exponent since the start of the tick, m
+  /// Sum of angular velocity x substep x 2^size_exponent since the start of the tick, m.
+  Vec3<Real> rotation_vector;
   Vec3<Real> angular_velocity;          ///< times 2^size_exponent, in units of 2^-k_angular_velocity_power m/s
   Vec3<Real> push;          ///< velocity that gravity and forces add in a substep, m/s
   Vec3<Real> twist;         ///< angular momentum that torques add in a substep, m/s
-  /// The velocity and the angular momentum that contacts added in this substep, m/s. In float these members are sums of
-  /// the changes. In fixed point they are minus the motion at the start of the substep, because there a difference is
-  /// exact (contact_motion.h).
+  /// The velocity and the angular momentum that contacts added in this substep, m/s. In float these members are the
+  /// sums of these changes. In fixed point differences are exact, so they are minus the motion at the start of the
+  /// substep: their sum with the current motion is the change (contact_motion.h).
   Vec3<Real> contact_velocity;
   Vec3<Real> contact_angular_momentum;
   Vec3<Real> velocity_before;  ///< velocity before the last solver iteration, if there are several, m/s
@@ -99,9 +100,9 @@ struct alignas(8) BodyWork {
 };
 
 /// A contact during the step. Impulses and masses are relative to the reference mass: the mass of the lighter dynamic
-/// body. The pair's unit of length is that of its smaller moving body. The vector solver processes several contacts
-/// at once; from each it reads groups of four words or four Reals. The members for normal impulses come before those for
-/// friction (lib/solver/lane_contact.h).
+/// body. The pair's unit of length is that of its smaller moving body. The vector solver processes several contacts at
+/// once, and reads four words or four Reals of a contact at a time. The members for normal impulses come before those
+/// for friction (lib/solver/lane_contact.h).
 struct alignas(8) ContactWork {
   ContactState state;  ///< becomes the world's contact when the step ends
 
@@ -121,7 +122,8 @@ struct alignas(8) ContactWork {
   uint32_t apart[k_manifold_points_max];     ///< 1 if the point does not touch in the substep
   uint32_t static_pair;                      ///< 1 if only one of the bodies is dynamic
   uint32_t angular_rows;                     ///< 0: none; 1: twist friction; 3: twist and rolling friction
-  alignas(sizeof(Unit)) Scaled inverse_mass_a;      ///< relative inverse mass of A: reference mass / mass; 0 if not dynamic
+  /// Relative inverse mass of A: reference mass / mass; 0 if A is not dynamic.
+  alignas(sizeof(Unit)) Scaled inverse_mass_a;
   Scaled inverse_mass_b;                            ///< relative inverse mass of B
 
   Vec3<Unit> middle_a, middle_b;  ///< the points' middle, from the centre of mass of A and of B, in that body's unit
@@ -161,15 +163,16 @@ inline constexpr bool k_may_have_joint_lanes = k_may_have_lanes;
 #else
 inline constexpr bool k_may_have_joint_lanes = false;
 #endif
-/// Work space for up to four contacts that are solved at once (LaneContact in lib/solver/lane_contact.h). Up to eight
-/// take two.
+/// Work space for up to four contacts that are solved at once (LaneContact in lib/solver/lane_contact.h). Five to eight
+/// contacts take two of these.
 struct alignas(8) LaneSpace {
   uint8_t bytes[DETENT_FIXED ? 2472 : 2120];
 };
 
 /// The position of a contact in the solve order.
 struct ContactOrder {
-  uint32_t key;  ///< hash of the pair's ids; of the first contact of a group, while it is solved: the index of its lanes
+  /// Hash of the pair's ids. Of the first contact of a group, while the group is solved: the index of its LaneSpace.
+  uint32_t key;
   uint32_t contact;
   uint16_t colour;
   uint16_t kind;  ///< kind of work, and group_size() (contact_order.h)
@@ -177,11 +180,11 @@ struct ContactOrder {
 };
 
 /// An island: awake bodies that contacts or joints connect, directly or through other bodies, and these contacts and
-/// joints.
+/// joints. An *assembly* is the part of an island that joints alone connect (lib/joint/joint.h).
 struct Island {
   uint32_t first_body, body_count;        ///< range in the list of bodies by island
   uint32_t first_contact, contact_count;  ///< range in the solve order
-  uint32_t substeps;                      ///< number of substeps; before it is chosen, the minimum for its joints
+  uint32_t substeps;                      ///< number of substeps; before this is chosen, the minimum for the joints
   uint32_t first_joint, joint_count;      ///< range in the order of the joints, assembly by assembly
   uint32_t joint_couplings_dropped;       ///< couplings of its joints that had no room in the factor
   Scaled joint_need;                      ///< square of the number of substeps that its joints need
@@ -199,9 +202,9 @@ struct alignas(8) JointBodyStart {
   uint32_t slowed;                     ///< 1 if its joints increase its inertia: an element of kept_rotation is below 1
   alignas(sizeof(Real)) Scaled inverse_mass;  ///< relative inverse mass: reference mass / mass; 0 if no joint moves it
 };
-/// The part of a body with joints that each substep recomputes. The body's *unit* is a power of two, m, that is at
-/// least as long as its joints' arms; angular velocities and angular momenta are in this unit (angular_velocity.h). Of
-/// a body that the solver does not move, only the velocity and the angular velocity are set.
+/// The part of a body with joints that each substep recomputes. The body's *unit for joints* is a power of two, m, that
+/// is at least as long as its joints' arms. Angular velocities and angular momenta are in this unit
+/// (angular_velocity.h). Of a body that the solver does not move, only the velocity and the angular velocity are set.
 struct alignas(8) JointBody : JointBodyStart {
   Vec3<Real> velocity_before;  ///< at the start of the substep, before forces and impulses, m/s
   /// Angular momentum at the start of the substep, before forces and impulses, m/s (angular_velocity.h). While
@@ -210,7 +213,7 @@ struct alignas(8) JointBody : JointBodyStart {
   Quat rotation;              ///< current
   Matrix3 axes;               ///< current
   Vec3<Real> place;           ///< displacement of its centre since the start of the tick, m
-  Vec3<Real> linear_velocity, angular_velocity;  ///< from these the rows' speeds are computed, m/s
+  Vec3<Real> linear_velocity, angular_velocity;  ///< the speeds of the rows are computed from these, m/s
   Vec3<Real> turned[3];  ///< angular velocity per unit angular impulse: rows of a symmetric matrix
   // A register of four floats may read and write `push` together with `pushed`, and `twist` with a kept_rotation.
   Vec3<Real> push;  ///< velocity that the rows' impulses add, m/s
@@ -219,7 +222,8 @@ struct alignas(8) JointBody : JointBodyStart {
   /// About each body axis: the body's own inertia over its inertia in this substep, which joints may increase
   /// (joint_inertia.cpp). At equal angular velocity, it is also the ratio of the angular momenta.
   alignas(sizeof(Real)) Scaled kept_rotation[3];
-  Vec3<Real> given_push, given_twist;  ///< the same by impulses without a row: motors at full force, soft springs
+  /// As `push` and `twist`, by impulses without a row: motors at full force, soft springs.
+  Vec3<Real> given_push, given_twist;
   Vec3<Real> shift;                    ///< translation of its centre in this substep that closes gaps, m
   Vec3<Real> shift_rotation;               ///< rotation vector in this substep that closes gaps, rad
 };
@@ -231,8 +235,8 @@ struct JointRow {
   Vec3<Unit> arm[2];  ///< of A, of B: angular momentum per unit impulse
 };
 
-/// The largest number of free motions of one joint that can have rows: motions along or about its axes, and other
-/// rotations with friction or a spring.
+/// The largest number of free motions of one joint that can have rows. These are the motions of JointDef::axis and
+/// JointDef::second, and rotations that have only friction or a spring.
 inline constexpr int k_free_motions = 3;
 
 /// The rows of a joint for the current poses of its bodies.
@@ -265,7 +269,8 @@ struct alignas(8) JointWorkStart {
   /// computed: the last joint that marked this one as a neighbour.
   uint32_t mark;
   uint32_t around[2];               ///< while the order is computed: previous and next joint of the same degree
-  uint32_t assembly_joints;         ///< of the first joint of an assembly in the elimination order: number of its joints
+  /// Of the first joint of an assembly in the elimination order: the number of the assembly's joints.
+  uint32_t assembly_joints;
   uint32_t rows;                    ///< number of rows in this substep
   uint32_t driven[k_free_motions];  ///< row of each free motion that is driven now, else k_joint_rows_max
   alignas(4) DriveMode mode[k_free_motions + 1];  ///< of each free motion
@@ -283,7 +288,7 @@ struct alignas(8) JointWorkStart {
   Real given[k_free_motions];         ///< impulse of each free motion without a row, in this substep
   Vec3<Real> force_sum, torque_sum;   ///< sums over the tick of impulses and of angular impulses / 2^exponent m, m/s
 };
-/// The part that each substep recomputes.
+/// The part of a solved joint that each substep recomputes.
 struct alignas(8) JointWork : JointWorkStart, JointRows {
   alignas(sizeof(Real)) Scaled inverse[k_joint_rows_max];  ///< reciprocals of the pivots
   Real least[k_joint_rows_max];                            ///< lower bound of each pivot: the row's softness
@@ -297,31 +302,31 @@ struct alignas(8) JointWork : JointWorkStart, JointRows {
   int32_t row_power[k_joint_rows_max];  ///< exponent of the unit of each row
 };
 
-/// The rows of a joint side by side (lib/joint/joint_lanes.h): rows and columns of its Jacobian J for each body, without
-/// the sign of A, and the upper half of the matrix JointWork::response. A column has the numbers of all rows for one
-/// component of (v, w). In a row, a zero follows v, and another one follows w.
+/// The rows of a joint side by side (lib/joint/joint_lanes.h): rows and columns of the joint's Jacobian J for each
+/// body, without the minus sign of A's part, and the upper half of the matrix JointWork::response. A column has the
+/// numbers of all rows for one component of (v, w). A row is (v, 0, w, 0).
 struct alignas(8) JointLanes {
   Real column[2][6][8];
   Real row[2][k_joint_rows_max][8];
   Real upper[k_joint_rows_max][8];
 };
 
-/// A coupling of two joints: a block of the factor. The joints share a body, or the elimination of the joints between
-/// them couples them.
+/// A coupling of two joints: a block of the factor. Either the two joints share a body, or the elimination of joints
+/// between them has coupled them.
 struct JointCoupling {
   uint32_t joint[2];  ///< the joint that is eliminated first, the other joint
-  /// Next coupling of the first joint with a joint eliminated later. While the order is computed: next coupling of each
-  /// of the two joints, as 2 x coupling + end.
+  /// Index 0: the next coupling of the first joint with a joint that is eliminated later. While the order is computed:
+  /// the next coupling of each of the two joints, as 2 x coupling + end.
   uint32_t next[2];
-  /// Index of the block's first number; size: rows of the first joint x rows of the other, with lanes rounded up to
-  /// 4 or 8.
+  /// Index of the block's first number. The block has rows of the first joint x rows of the other joint numbers; with
+  /// lanes, a row is rounded up to 4 or 8 numbers.
   uint32_t block;
 };
 
 /// The motion of a body for the rest of the tick, from its pose at `from`: constant velocity and constant angular
 /// velocity, world axes.
 struct BodySweep {
-  /// In `marks`: the body's BodyWork::colours had k_has_sliver.
+  /// A bit of `marks`, set if k_has_sliver was set in BodyWork::colours of the body.
   static constexpr uint32_t k_mark_sliver = 64;
   Fraction from;
   Vec3<Real> displacement;  ///< in a whole tick at this velocity, m
@@ -331,8 +336,8 @@ struct BodySweep {
   uint32_t marks;           ///< flags of the impact stage
 };
 
-/// The motion of a body in the tick, while impacts are found. Of a body that was not hit, only `bound` is set, and only
-/// if the body moves.
+/// The motion of a body in the tick, while impacts are found. If the body has not been hit, only `bound` is set; if it
+/// does not move either, nothing is set.
 struct ImpactPath {
   Vec3<Real> displacement;     ///< from the start of the tick to BodySweep::from, m
   Vec3<Real> rotation_vector;  ///< sum of the rotation vectors from the start of the tick to BodySweep::from, rad
@@ -341,7 +346,7 @@ struct ImpactPath {
   Real bound;
 };
 
-/// A pair of bodies that collides in this tick, or has collided.
+/// A pair of bodies that will collide in this tick, or has collided in it.
 struct ImpactPair {
   uint64_t key;       ///< pair_key() of the slots
   Fraction time;      ///< of the next event

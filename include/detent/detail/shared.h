@@ -3,7 +3,8 @@
 /// DETENT_SHARED marks a function that has many callers and is larger than a call. With -Os the function is never
 /// inlined, so a program has one copy of it. At other optimisation levels the compiler decides.
 ///
-/// DETENT_PASSING marks a function that only passes its arguments to such a function: at -Os it is always inlined.
+/// DETENT_PASSING marks a function that only passes its arguments to a DETENT_SHARED function: at -Os it is always
+/// inlined.
 #if !defined(__OPTIMIZE_SIZE__)
 #define DETENT_SHARED
 #define DETENT_PASSING

@@ -68,9 +68,11 @@ struct BodyPose {
 
 struct BodyMotion {
   Vec3<Real> linear_velocity;  ///< m/s
-  /// Dynamic: angular momentum / (mass x 2^size_exponent), m/s. Kinematic: angular velocity x 2^size_exponent, m/s.
+  /// Of a dynamic body: angular momentum / (mass x 2^size_exponent), m/s. Of a kinematic body: angular velocity x
+  /// 2^size_exponent, m/s.
   Vec3<Real> angular_momentum;
-  /// What forces and torques applied since the last step add to the two members above during the next one, m/s.
+  /// What the forces and torques that were applied since the last step add to the two members above during the next
+  /// step, m/s.
   Vec3<Real> pending_velocity;
   Vec3<Real> pending_angular_momentum;
 };
@@ -79,14 +81,14 @@ struct BodyProperties {
   uint32_t type;        ///< BodyType; 0: the slot is empty, and all members but the generation are zero
   uint32_t generation;  ///< of the body in the slot, or of the last body that was in it
   uint32_t shape;       ///< ShapeType
-  /// The body's unit of length is 2^size_exponent m: the bounding radius lies in [1/2, 1) of it.
+  /// The body's unit of length is 2^size_exponent m: the bounding radius lies in [1/2, 1) of this unit.
   int32_t size_exponent;
   uint32_t category;  ///< Filter::category
   uint32_t mask;      ///< Filter::mask
   int32_t group;      ///< Filter::group
   uint32_t rule;      ///< Filter::rule
-  /// In the body's unit. Box: half extents. Round shapes: (radius, half length, 0). Hull, terrain, compound: the
-  /// greatest |x|, |y|, |z|.
+  /// In the body's unit. Box: half extents. Sphere, capsule, cylinder, cone: (radius, half length, 0). Hull, terrain,
+  /// compound: the greatest |x|, |y|, |z|.
   Vec3<Unit> size;
   Unit bounding_radius;  ///< in the body's unit, `rounding` included
   /// In the body's unit. Box, cylinder, cone, hull: radius of the ball that rounds it. Compound: least half thickness
@@ -109,7 +111,7 @@ struct BodyProperties {
 
 /// Substeps and sleep of a body. All zero for a body that is not dynamic.
 struct BodyActivity {
-  uint32_t substeps;       ///< of its island in the last tick; 0 before the first tick, and without contacts
+  uint32_t substeps;       ///< of the body's island in the last tick; 0 before the first tick, and without contacts
   uint32_t calm_ticks;     ///< ticks in a row in which fewer substeps would have been enough
   uint16_t still_ticks;    ///< ticks in a row at rest
   uint16_t pending_event;  ///< BodyEventType that the end of the step reports, or 0; between steps: woke or 0
@@ -123,7 +125,7 @@ struct ContactState {
   uint32_t body_a;  ///< slot index; body_a < body_b
   uint32_t body_b;
   uint32_t part;     ///< key of the parts that touch; 0 if both bodies are convex. Distinct among a pair's contacts
-  uint16_t age;      ///< ticks in contact before this one, at most 65535
+  uint16_t age;      ///< ticks for which the contact existed before this tick, at most 65535
   uint8_t touching;  ///< 1 if the bodies pushed each other in the last tick
   uint8_t point_count;
   uint32_t feature[k_manifold_points_max];  ///< keys of the features that touch; distinct; 0 beyond point_count
@@ -138,14 +140,15 @@ struct ContactState {
 
 /// The relative pose and the points of a contact when its points were computed. The points are recycled while the pair
 /// hardly moves. All zero for a contact whose points are recomputed in each tick. The *base* is the body with the
-/// larger bounding radius; if the radii are equal, A. Lengths are in units of 4 times the base's unit of length, if no
-/// other unit is given.
+/// larger bounding radius, or A if the radii are equal. Where no unit is given, lengths are relative to 4 times the
+/// base's unit of length.
 struct ManifoldState {
-  Vec3<Unit> normal;                         ///< from the base to the other body, in the base's axes
-  Vec3<Unit> offset;                         ///< from the base's centre to the other body's, in the base's axes
-  Quat rotation;                             ///< of the other body, in the base's axes
-  Unit height[k_manifold_points_max];        ///< separation of a point minus its coordinate along the normal
-  int16_t anchor[k_manifold_points_max][3];  ///< the points, from the other body, in its axes; 2^-15 of its unit
+  Vec3<Unit> normal;                   ///< from the base to the other body, in the base's axes
+  Vec3<Unit> offset;                   ///< from the base's centre to the other body's, in the base's axes
+  Quat rotation;                       ///< of the other body, in the base's axes
+  Unit height[k_manifold_points_max];  ///< separation of a point minus its coordinate along the normal
+  /// The points, from the centre of the other body, in that body's axes; in 2^-15 of that body's unit of length.
+  int16_t anchor[k_manifold_points_max][3];
 };
 
 /// A body within a sensor.
@@ -180,9 +183,10 @@ struct alignas(8) JointState {
   Scaled friction[2];  ///< JointDef::friction_force, N; JointDef::friction_torque, N m
   Scaled break_force;
   Scaled break_torque;
-  Vec3<Scaled> force;              ///< on B in the last tick, N, world
-  Vec3<Scaled> torque;             ///< on B in the last tick, N m, world
-  Real impulse[k_joint_rows_max];  ///< of its rows, from the last substep (joint.h), m/s
+  Vec3<Scaled> force;   ///< on B in the last tick, N, world
+  Vec3<Scaled> torque;  ///< on B in the last tick, N m, world
+  /// Of the joint's rows, from the last substep, m/s, scaled by k_kept_power (lib/joint/joint.h).
+  Real impulse[k_joint_rows_max];
 };
 
 /// The kind of a bound asset. Stored: a value is never reused.
