@@ -134,7 +134,8 @@ struct StepObserver {
   /// @endcond
 };
 
-/// Bytes of the block that a world of this capacity needs; 0 if the capacity is out of range. The same on every target.
+/// Bytes of the block that a world of this capacity needs; 0 if the capacity is out of range. Builds with vector code
+/// (World::lanes) need more than others.
 constexpr uint32_t world_bytes(Capacity capacity);
 
 /// Memory and functions of the caller that a world uses: assets, filter rules, event buffers, profile, observer, tasks.

@@ -190,7 +190,7 @@ CLI::App* add_world_command(CLI::App& app, WorldOptions& options) {
       "Time against error over 1 to 32 substeps, of peers 1 to 32 steps a tick and 2 to 80 iterations, and with "
       "--accuracy; --ground box");
   command->add_flag("--accuracy", options.accuracy,
-                    "Detent also with a resting_penetration of 1/8, 1/32, 1/512 and 1/2048 (default: 1/128)");
+                    "Detent also with a resting_penetration of 1/8, 1/32, 1/512 and 1/2048 (default: 1/144)");
   CLI::Option* const growth = command->add_flag(
       "--growth", options.growth, "The pit of S4 with more and more bodies, as deep but wider; --ground box");
   growth->excludes(study);
