@@ -24,11 +24,12 @@
 ///
 /// M is the mass matrix. S is a diagonal matrix of small softnesses, which makes redundant rows solvable; the row of a
 /// spring has a larger softness. K + S is factored as a block L D L^T over the graph of the joints, with elimination by
-/// minimum degree (joint_order.cpp, joint_factor.h). The factor is computed anew in each substep.
+/// minimum degree (joint_order.cpp, joint_factor.h). Each substep computes the factor anew.
 ///
 /// A substep adds no energy (joint_solve.cpp). Solving the rows projects the velocities, which only removes energy.
-/// Then velocities are added that make the joints follow their curved paths. They are scaled so that they add at most
-/// the energy that the projection has removed. Position errors are corrected by shifts, which do not change velocities.
+/// Then the solver adds velocities that make the joints follow their curved paths. These velocities are scaled so that
+/// they add at most the energy that the projection has removed. Shifts of the bodies correct position errors; they do
+/// not change velocities.
 /// Sources: Baraff, "Linear-time dynamics using Lagrange multipliers", SIGGRAPH 1996; Tournier, Nesme, Gilles, Faure,
 /// "Stable constrained dynamics", 2015; George, Liu, "The evolution of the minimum degree ordering algorithm", 1989.
 namespace detent {
@@ -44,11 +45,11 @@ inline namespace DETENT_NAMESPACE {
 inline constexpr uint32_t k_no_link = UINT32_MAX;
 /// Limit of the stored impulse of a row, of the impulse of a drive in a substep, and of JointWork::pull, m/s.
 inline constexpr Real k_joint_impulse_max = 16384.0;
-/// The impulses that a joint stores are scaled from a substep to 2^-k_kept_power of a tick. So they do not depend on
+/// A joint stores the impulse of a substep times (number of substeps) / 2^k_kept_power. This value does not depend on
 /// the number of substeps.
 inline constexpr int k_kept_power = 3;
 
-/// Converts lengths or speeds to units of 2^exponent, clamped to the range of a Unit.
+/// Converts lengths, m, or speeds, m/s, to units of 2^exponent, clamped to the range of a Unit.
 Vec3<Unit> clamped_unit(const Vec3<Real>& v, int exponent);
 
 struct JointStage {
@@ -56,7 +57,7 @@ struct JointStage {
   Span<const BodyPose> poses;
   Span<const BodyActivity> activities;
   Span<JointWork> work;    ///< the active joints, in the order of their slots
-  Span<JointLanes> lanes;  ///< of the active joints, where the machine may have lanes
+  Span<JointLanes> lanes;  ///< of the active joints, on machines that may have lanes
   Span<JointBody> bodies;  ///< the bodies of the active joints
   /// Indices into `work`: by island, assembly by assembly, in the order of elimination.
   Span<uint32_t> order;
@@ -65,11 +66,11 @@ struct JointStage {
   uint32_t count = 0;             ///< number of entries in `work`
   uint32_t body_count = 0;        ///< number of entries in `bodies`
 #if DETENT_SPARSE
-  /// Joints that are not solved in this step, although they are active: the bodies of `others` in `anchoring`. Bodies
-  /// that no joint moves count as their bodies too.
+  /// `anchoring` selects active joints of `others`, which this step does not solve. Their fixed and kinematic bodies
+  /// are in `bodies`, too (collect_anchors() in joint_collect.cpp).
   Span<const JointState> others = {};
   BitSet anchoring = {};                          ///< indices in `others`
-  uint32_t couplings_used = 0, numbers_used = 0;  ///< of `couplings` and `numbers`, which all islands share
+  uint32_t couplings_used = 0, numbers_used = 0;  ///< elements used of `couplings` and `numbers`, by all islands
 #endif
 };
 
@@ -77,14 +78,15 @@ struct JointStage {
 /// called for the bodies. Fills `work` and `bodies`.
 void collect_joints(const SolverBodies& bodies, JointStage& stage);
 
-/// For every island: lists its assemblies, computes the elimination order of their joints, makes the couplings that the
+/// For every island: lists the assemblies, computes the elimination order of their joints, makes the couplings that the
 /// factors need, and sets the number of substeps that the joints need. `slots` lists the bodies by island. Returns the
-/// number of couplings that had no room.
+/// number of couplings for which there was no room.
 uint32_t order_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                       Span<Island> islands, JointStage& stage);
 
-/// Begins a substep of an island, `elapsed` after the start of the tick: makes the joints' rows, stores the velocities
-/// before anything acts, and sets the bodies' inverse inertias, which joints and contacts both use in the substep.
+/// Begins a substep of an island, `elapsed`, s, after the start of the tick. Makes the joints' rows, stores the bodies'
+/// velocities before anything acts in the substep, and sets the bodies' inverse inertias, which joints and contacts
+/// both use in the substep.
 void begin_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
                   JointStage& stage);
 
@@ -93,14 +95,15 @@ inline bool has_renewed_inverse_inertia(const BodyWork& now, const JointStage& s
   return now.joint_body != UINT32_MAX && stage.bodies[now.joint_body].renewed != 0;
 }
 
-/// Solves the joints' rows for the bodies' current velocities, `elapsed` after the start of the tick. Returns the
-/// number of values that were clamped, and adds to `undecided`.
+/// Solves the joints' rows for the bodies' current velocities, `elapsed`, s, after the start of the tick. Returns the
+/// number of values that were clamped. Increases `undecided` by the number of assemblies whose drive modes still
+/// disagree with the impulses after the last solve.
 uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
                       JointStage& stage, uint32_t& undecided);
 
 /// Solves the rows again, to remove the row speeds that contacts have added since BodyWork::velocity_before was stored.
 /// Skips the assemblies in which contacts changed no velocity by more than `enough`, m/s. Returns the number of values
-/// that were clamped, and adds to `undecided`.
+/// that were clamped, and increases `undecided` as solve_joints() does.
 uint32_t solve_joints_again(const StepSettings& settings, const SolverBodies& bodies, const Island& island,
                             Real elapsed, Real enough, JointStage& stage, uint32_t& undecided);
 
@@ -110,12 +113,12 @@ uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies,
                        JointStage& stage);
 
 /// Applies the shifts that close gaps, after the bodies have moved. Then converts the bodies' angular momenta back to
-/// the inertia of the substep. Returns the number of values that were clamped.
+/// the inertia of the substep. Returns 1 if a value was clamped, else 0.
 uint32_t shift_joints(const SolverBodies& bodies, const Island& island, JointStage& stage);
 
-/// Ends a substep of an island: removes the row speeds that contacts have added, as solve_joints_again() does, adds up
-/// the impulses of the joints, and restores the bodies' own inverse inertias and angular momenta. Returns the number of
-/// values that were clamped, and adds to `undecided`.
+/// Ends a substep of an island: removes the row speeds that contacts have added, as solve_joints_again() does, adds the
+/// impulses of the joints to their sums over the tick, and restores the bodies' own inverse inertias and angular
+/// momenta. Returns the number of values that were clamped, and increases `undecided` as solve_joints() does.
 uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
                     Real enough, JointStage& stage, uint32_t& undecided);
 
@@ -137,7 +140,7 @@ struct JointOps {
 
 // Functions that several files of lib/joint share.
 
-/// Visits the assemblies of an island: the range of the joints of each.
+/// Calls `visit` for each assembly of an island, with the range of its joints.
 template <class Visit>
 void each_assembly(const Island& island, const JointStage& stage, const Visit& visit) {
   for (uint32_t done = 0; done < island.joint_count;) {
@@ -147,29 +150,30 @@ void each_assembly(const Island& island, const JointStage& stage, const Visit& v
     done += count;
   }
 }
-/// The mobile body of an assembly that follows `body`; the first one if `body` is null. Null after the last.
+/// Returns the mobile body after `body` in the assembly, or null if `body` is the last. If `body` is null, returns the
+/// first mobile body.
 DETENT_SHARED inline JointBody* next_mobile_body(Span<const uint32_t> order, const JointStage& stage,
                                                  const JointBody* body) {
   JointBody* const next = &stage.bodies[body == nullptr ? stage.work[order[0]].mark : body->next];
   return next == body ? nullptr : next;
 }
-/// Visits the mobile bodies of an assembly. It has at least one.
+/// Visits the mobile bodies of an assembly. Every assembly has at least one.
 template <class Visit>
 void each_mobile_body(Span<const uint32_t> order, const JointStage& stage, const Visit& visit) {
   JointBody* body = nullptr;
   while ((body = next_mobile_body(order, stage, body)) != nullptr) visit(*body);
 }
 
-/// The distance of a block's rows, for a joint with `rows` rows that is eliminated later.
+/// The distance, in numbers, from one row of a coupling's block to the next. `rows`: number of rows of the coupling's
+/// joint that is eliminated later.
 constexpr uint32_t block_stride(uint32_t rows) { return !DETENT_JOINT_LANES ? rows : rows > 4 ? 8 : 4; }
 
 /// Sets the lowest number of substeps for the joints of an island, and the squared number that their motion needs.
 void require_substeps(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                       const JointStage& stage, Island& island);
 
-/// The impulses of rows that oppose each other can grow up to (target speed) / softness. Therefore impulses are stored
-/// divided by 2^k_impulse_power, in units in which responses are near 1, and speeds are stored multiplied by
-/// 2^k_impulse_power.
+/// The impulses of rows that oppose each other can grow up to (target speed) / softness. Therefore the solve stores
+/// impulses and right-hand sides divided by 2^k_impulse_power.
 inline constexpr int k_impulse_power = DETENT_FIXED ? 6 : 0;
 
 inline bool is_linear(const JointRow& row) { return !(row.axis == k_no_direction); }
@@ -190,11 +194,11 @@ inline bool holds(const JointState& joint) {
 }
 /// Whether the free motion is an angle.
 bool is_angular(JointType type, int motion);
-/// Number of free motions that have their own settings (JointDef::axis, second). The other settings have no meaning,
-/// except the spring of a ball joint.
+/// Number of free motions that have their own settings (JointDef::axis, second). Settings beyond this number have no
+/// meaning, except the spring of a ball joint.
 int free_motion_count(JointType type);
-/// Number of free motions that can be driven. This includes rotations that have only friction, or the spring of a ball
-/// joint.
+/// Number of free motions that can be driven. This includes rotations that only friction or the spring of a ball joint
+/// can drive.
 int driven_motion_count(const JointState& joint);
 /// Whether the free motion has limits.
 bool is_limited(const JointState& joint, int motion);
@@ -204,14 +208,14 @@ bool is_driven(const JointState& joint, int motion);
 bool is_braked(const JointState& joint, int motion);
 /// The free motions on which something can act: bit i for free motion i.
 uint32_t driven_motions(const JointState& joint);
-/// Parts of a joint's rows: all, or only `locked_rows`, `points`, `arm`, the errors, and the values of the free
-/// motions.
+/// The members of JointRows that make_joint_rows() sets: all, or only `locked_rows`, `points`, `arm`, `error`, and the
+/// values of the free motions (`errors`).
 enum class RowParts : uint8_t { all, errors };
-/// Makes the rows of a joint at the current poses of its bodies. `motions`: the free motions that the caller needs (bit i
-/// for free motion i); others may be left out.
+/// Makes the rows of a joint at the current poses of its bodies. `motions`: the free motions that the caller needs (bit
+/// i for free motion i); others may be left out.
 void make_joint_rows(const JointStage& stage, const JointWork& work, uint32_t motions, RowParts parts, JointRows& rows);
-/// Chooses the drive mode of each free motion, before the rows are solved and before forces and impulses act in the
-/// substep. A limit that the motion would pass in this substep is activated.
+/// Chooses the drive mode of each free motion, before the first solve of the substep. Activates each limit that the
+/// motion would pass in this substep.
 void choose_drives(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointWork& work);
 /// Whether the impulse of a motor, spring or friction exceeds its limit in the substep. If `changes`, replaces the row
 /// by a constant impulse at that limit.
@@ -225,30 +229,33 @@ inline bool is_locked(const JointWork& work, uint32_t row) {
   return row < work.locked_rows || (work.driven[0] == row && is_at_limit(work.mode[0])) ||
          (work.driven[1] == row && is_at_limit(work.mode[1]));
 }
-/// Activates each limit that the bodies, at their current velocities, would pass by more than k_passed. If a motor or
-/// friction acts with its greatest force and drives the motion beyond its target speed, it gets a row again. This is
-/// skipped if the island `touches`: contacts and joints are then solved in alternation, and contacts may still load the
-/// motor. Returns whether a drive mode changed.
+/// Activates each limit that the bodies, at their current velocities, would pass by more than k_passed. A motor or
+/// friction that acts with its greatest force gets a row again if it drives the motion beyond its target speed. It gets
+/// no row again in an island with contacts (`touches`): there contacts and joints are solved in alternation, and a
+/// contact may still load the motor. Returns whether a drive mode changed.
 bool take_up(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, bool touches,
              JointWork& work);
-/// Whether the impulse of an active limit pulls, which a limit cannot. If `changes`, deactivates such limits.
+/// Whether the impulse of an active limit pulls, which a limit cannot. If `changes`, deactivates the first such limit.
 bool release_limits(const JointState& joint, bool changes, JointWork& work);
 /// Adds the rows of the driven free motions.
 void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                      JointWork& work);
-/// The linear impulse on B in the current substep, in the unit of the joint's linear rows.
+/// The linear impulse of the joint on B in the current substep, in the unit of the joint's linear rows.
 Vec3<Real> linear_impulse(const JointWork& work);
-/// The magnitude of an impulse in that unit / mass of the lighter body, m/s. Overflow: k_joint_impulse_max.
+/// The magnitude of `impulse`, which is in the unit of the joint's linear rows, divided by the mass of the lighter
+/// body, m/s. Overflow: clamps to k_joint_impulse_max.
 Real pull_of(const JointWork& work, const Vec3<Real>& impulse);
-/// The pull in the last substep of the last tick, from the stored impulses, at the current number of substeps.
+/// JointWork::pull of the last substep of the last tick, m/s, computed from the stored impulses and scaled to the
+/// current number of substeps.
 Real last_pull(const StepSettings& settings, const JointStage& stage, const JointWork& work);
-/// Stores the impulses of the last of `substeps` substeps, for last_pull(). They are scaled down to JointWork::pull.
-/// Overflow: each is clamped to k_joint_impulse_max.
+/// Stores the impulses of the last of `substeps` substeps, for last_pull(). If their pull exceeds JointWork::pull, they
+/// are scaled down to that pull. Overflow: each impulse is clamped to k_joint_impulse_max.
 void store_impulses(uint32_t substeps, const JointWork& work, JointState& joint);
-/// Sets a body's inertia for this substep: about each of its axes it is at least h sum |impulse| |arm| over the joints
-/// of the body, with the length h of the substep. Without this, strong forces on a light body would make it oscillate
-/// faster than a substep can follow. The angular momentum stays the same, so the body rotates more slowly. Also sets
-/// the body's inverse inertia, and its response to forces and torques. The body's pose must be set before.
+/// Sets a body's inertia for this substep. About each axis of the body, the inertia is at least h sum |impulse| |arm|
+/// over the joints of the body, with the length h, s, of the substep. Without this lower bound, strong forces on a
+/// light body would make the body oscillate faster than a substep can follow. The angular momentum does not change, so
+/// a body with a larger inertia rotates more slowly. Also sets the body's inverse inertia, and its response to forces
+/// and torques. The body's pose must be set before the call.
 void load_inertia(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointBody& body);
 /// Converts an angular momentum from the inertia of the substep to the body's own inertia, at equal angular velocity.
 Vec3<Real> own_angular_momentum(const JointBody& body, const Vec3<Real>& angular_momentum);

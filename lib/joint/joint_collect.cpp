@@ -33,7 +33,7 @@ void link_to(JointStage& stage, uint32_t joint, uint32_t end) {
   stage.work[joint].next[end] = k_no_link;
 }
 
-/// Enlarges a body's unit so that an arm of this length fits.
+/// Enlarges a body's unit of length so that an arm of this length, m, fits.
 void extend_arm(JointBody& body, Real arm) {
   const int exponent = exponent_above(arm);
   if (exponent > body.exponent) body.exponent = exponent;
@@ -65,7 +65,8 @@ Real arm_of_a(const JointState& joint, const Vec3<Real>& between) {
 }
 
 #if DETENT_SPARSE
-/// Adds the bodies of JointStage::anchoring. All joints of a body share its unit, and contacts ask whether it has any.
+/// Adds the fixed and kinematic bodies of the joints in JointStage::anchoring. Two reasons: the unit of such a body
+/// must fit the arms of all its joints, and contacts ask whether a body has joints.
 void collect_anchors(const SolverBodies& bodies, JointStage& stage) {
   stage.anchoring.for_each([&](uint32_t slot) {
     const JointState& joint = stage.others[slot];

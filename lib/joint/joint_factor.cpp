@@ -4,12 +4,12 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Softness of a row: 2^k_softness_power times the largest diagonal element of the joint's rows of the same kind
-/// (linear or angular) is added to its diagonal element. A redundant row has only the softness as its pivot; its effect
-/// is then below the precision of the numbers. The rows of a nearly singular system, for example of a nearly straight
-/// chain, yield by an amount that grows with the softness. Therefore the softness is as small as the precision permits.
-/// Rows of drives use k_soft_power, so they yield before locked rows. After make_softer() all rows use k_soft_power,
-/// and after each further call 2^k_softer_step times this softness.
+/// The softness of a row is added to the row's diagonal element. It is 2^k_softness_power times the largest diagonal
+/// element of the joint's rows of the same kind (linear or angular). The pivot of a redundant row is only its softness;
+/// the effect of this row is below the precision of the numbers. The rows of a nearly singular system, for example of a
+/// nearly straight chain, yield by an amount that grows with the softness. Therefore the softness is as small as the
+/// precision permits. Rows of drives use k_soft_power, so they yield before locked rows. After make_softer() all rows
+/// use k_soft_power. Each further call multiplies the softness by 2^k_softer_step.
 #if defined(DETENT_F32)
 constexpr int k_softness_power = -20, k_soft_power = -17;
 #elif defined(DETENT_F64)
@@ -57,8 +57,8 @@ struct Response {
 };
 
 #if !DETENT_JOINT_LANES
-/// Calls `visit` with the rows of two joints: the height and the width of a block. The usual widths are compile-time
-/// constants, and so are both sizes of two joints with only the three rows of the anchor points.
+/// Calls `visit` with the height and the width of a block: the numbers of rows of two joints. The usual widths are
+/// compile-time constants. Both numbers are constants if both joints have only the three rows of the anchor points.
 #if defined(__OPTIMIZE_SIZE__)
 template <class Visit>
 inline void with_sizes(uint32_t height, uint32_t width, const Visit& visit) {
@@ -115,8 +115,8 @@ inline void each_product(Height height, Width width, const Real* block, const Re
 #endif
 }
 
-/// Multiplies a coupling's block by L^-1 of the joint's own block. Sets `scaled` to the transpose of the result,
-/// divided by the pivots.
+/// Multiplies a coupling's block by L^-1, with the L of the own block of the joint `work`. Sets `scaled` to the
+/// transpose of the result, divided by the pivots.
 template <class Height, class Width>
 inline void divide_block(const JointWork& work, Height height, Width width, Real* block, Rows& scaled) {
   const uint32_t rows = height, columns = width;
@@ -129,7 +129,7 @@ inline void divide_block(const JointWork& work, Height height, Width width, Real
   }
 }
 
-/// Adds the magnitudes of the fill-in between two joints that have no coupling to the diagonals of both.
+/// Adds the magnitudes of the fill-in between two joints without a coupling to the diagonals of both joints.
 void make_up_product(uint32_t rows, const Real* block, const Rows& scaled, JointWork& third, JointWork& other) {
   for (uint32_t i = 0; i < third.rows; ++i) {
     for (uint32_t m = 0; m < other.rows; ++m) {
@@ -228,7 +228,8 @@ bool JointFactor::make_softer() {
   return true;
 }
 
-/// Adds to the diagonal of a joint the magnitudes of its elements with neighbours with which it has no coupling.
+/// Adds to a joint's diagonal the magnitudes of the matrix elements between this joint and the neighbours for whose
+/// coupling there was no room.
 void JointFactor::make_up(uint32_t index) {
   JointWork& work = stage_.work[index];
   for (uint32_t end = 0; end < 2; ++end) {
@@ -305,7 +306,7 @@ void JointFactor::eliminate(JointWork& work) {
       for (uint32_t m = 0; m < width; ++m)
         each_product(height, width, block, scaled[m], m, [&](uint32_t i, Real part) { other.response[i][m] -= part; });
     });
-    // The couplings before this one in the list already have L^-1 applied.
+    // The blocks of the couplings before this one in the list are already multiplied by L^-1.
     for (uint32_t before = work.coupling; before != at; before = stage_.couplings[before].next[0]) {
       const JointCoupling& known = stage_.couplings[before];
       JointWork& third = stage_.work[known.joint[1]];
@@ -315,7 +316,7 @@ void JointFactor::eliminate(JointWork& work) {
         continue;
       }
       Real* const target = block_of(*between);
-      // The block of a coupling has the rows of the joint that is eliminated first.
+      // The rows of a coupling's block are the rows of the joint that is eliminated first.
       const bool turned = other.place < third.place;
       const Real* const known_block = block_of(known);
       const uint32_t width = other.rows;

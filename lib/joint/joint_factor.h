@@ -4,8 +4,8 @@
 #include "joint/joint_lanes.h"
 #include "math/scaled.h"
 
-/// The factor of all joints of an assembly: a block L D L^T of the matrix K + S (joint.h). The block of a joint's own
-/// rows is in JointWork::response, the blocks of its couplings are in JointStage::numbers.
+/// The factor of all joints of an assembly: L D L^T, in blocks, of the matrix K + S (joint.h). The block of a joint's
+/// own rows is in JointWork::response, the blocks of its couplings with other joints are in JointStage::numbers.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -67,12 +67,12 @@ class ProductSum {
 #endif
 };
 
-/// Whether products with the axis of a row are computed. In fixed point those of an angular row are left out, because
-/// they are 0. In float they may give a zero its sign.
+/// Whether products with the axis of a row are computed. In fixed point the products of an angular row are left out,
+/// because they are 0. In float they are computed, because they may change the sign of a zero.
 inline bool has_axis([[maybe_unused]] const JointRow& row) { return !DETENT_FIXED || is_linear(row); }
 
-/// Computes the part of J v of one body, for the first `rows` rows of a joint: axis . v + arm . w. For A, the caller
-/// must negate it. The three rows of the anchor points are always computed.
+/// Computes one body's part of J v, for the first `rows` rows of a joint: axis . v + arm . w. The caller must negate
+/// the part of A. The three rows of the anchor points are always computed.
 inline void show(const JointWork& work, uint32_t rows, uint32_t end, const Vec3<Real>& linear_velocity,
                  const Vec3<Real>& angular_velocity, Real (&speed)[k_joint_rows_max]) {
   if (work.points != 0) {
@@ -88,13 +88,14 @@ inline void show(const JointWork& work, uint32_t rows, uint32_t end, const Vec3<
   }
 }
 
-/// Limit of the impulse of a row in a solution. If an impulse is larger, all impulses of the assembly are scaled down.
+/// Limit of the impulse of a row in a solution. If an impulse exceeds the limit, all rows of the assembly become
+/// softer, and if that is not enough, all its impulses are scaled down.
 #if defined(DETENT_F64)
 inline constexpr Real k_solution_max = 0x1p24;
 #else
 inline constexpr Real k_solution_max = 16384.0;
 #endif
-/// Limit of an impulse in the back substitution, before the terms of the other rows of its joint are subtracted.
+/// Limit of an impulse in the back substitution, before the terms of the other rows of the same joint are subtracted.
 inline constexpr Real k_solved_max = k_solution_max * Real(4.0);
 /// Limit of the velocity change of a body by its joints, m/s. The sum of two such values fits a Real.
 inline constexpr Real k_gathered_max = 65504.0;
@@ -129,7 +130,7 @@ inline bool gather(const JointStage& stage, const JointWork& work) {
 inline bool gather(const JointStage& stage, const JointWork& work) {
   JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
   constexpr int k_kinds = DETENT_FIXED ? 2 : 1;  // kinds of rows with their own unit: linear, angular
-  int kinds = 1;                                 // kinds that the joint has; linear ones may be missing
+  int kinds = 1;                                 // 2 if the joint has angular rows
   Vec3<Real> force = k_zero_vector, torque[k_kinds][2] = {};
   if (work.points != 0) {
     force = {work.impulse[0], work.impulse[1], work.impulse[2]};
@@ -169,16 +170,17 @@ inline bool gather(const JointStage& stage, const JointWork& work) {
 }
 #endif
 
-/// Chooses the units of a joint's impulses, 2^power reference masses, for which the responses of its rows are near 2^5:
-/// so the impulses between heavy bodies stay in range, even in an assembly with light bodies. Range: load_inertia() and
-/// make_joint_rows() have been called.
+/// Chooses the units of a joint's impulses, 2^power reference masses x m/s, such that the responses of the joint's rows
+/// are near 2^5. Then the impulses between heavy bodies stay in range, even in an assembly with light bodies. Range:
+/// load_inertia() and make_joint_rows() have been called.
 void choose_unit(const JointStage& stage, JointWork& work);
 
 /// The factor of the joints of an assembly.
 class JointFactor {
  public:
-  /// `dropped`: some couplings had no room. Then the magnitudes of the missing elements are added to the diagonal. The
-  /// rows are thus enforced only partly, which removes less energy than full enforcement, but never adds energy.
+  /// `dropped`: there was no room for some couplings. Then the magnitudes of the missing elements are added to the
+  /// diagonal. As a result the solve enforces the rows only partly: it removes less energy than a full solve, and never
+  /// adds energy.
   JointFactor(JointStage& stage, Span<const uint32_t> order, bool dropped)
       : stage_(stage), order_(order), dropped_(dropped) {}
 
@@ -186,8 +188,8 @@ class JointFactor {
   void make();
   /// Makes the factor again with softer rows. Returns false if the rows are as soft as they can be.
   bool make_softer();
-  /// Multiplies the right-hand sides b by L^-1. Returns b . (K + S)^-1 b. This is twice the least energy of any motion
-  /// with the row speeds b.
+  /// Multiplies the right-hand sides b by L^-1. Returns b . (K + S)^-1 b. Without the softness S, this is twice the
+  /// least energy of any motion with the row speeds b.
   Scaled substitute();
   /// Computes the impulses from the substituted right-hand sides: x = L^-T D^-1 (L^-1 b).
   void solve();

@@ -58,7 +58,7 @@ void subtract_products(const Real* block, uint32_t height, const Real* vector, R
     store_pair(load_pair(rest + k_rows_of_four) - four(k_rows_of_four), rest + k_rows_of_four);
 }
 
-/// Adds to the diagonals of two joints the magnitudes of their fill-in, for which there was no room.
+/// Adds the magnitudes of the fill-in between two joints, for which there was no room, to the diagonals of both joints.
 void make_up_fill(const JointWork& third, const JointWork& other, const BlockRows& known, const Real* scaled,
                   JointLanes& of_third, JointLanes& of_other) {
   for (uint32_t i = 0; i < third.rows; ++i) {
@@ -172,7 +172,7 @@ void JointFactor::eliminate(JointWork& work) {
         subtract_rows<decltype(width)::wide>({block, stride, rows}, {&scaled[0][m], k_row_room},
                                              lanes_of_other.upper[m]);
     });
-    // The couplings before this one in the list already have L^-1 applied.
+    // The blocks of the couplings before this one in the list are already multiplied by L^-1.
     for (uint32_t before = work.coupling; before != at; before = stage_.couplings[before].next[0]) {
       const JointCoupling& known = stage_.couplings[before];
       JointWork& third = stage_.work[known.joint[1]];
@@ -182,7 +182,7 @@ void JointFactor::eliminate(JointWork& work) {
         make_up_fill(third, other, of_third, scaled[0], lanes_of(stage_, third), lanes_of_other);
         continue;
       }
-      // The block of a coupling has the rows of the joint that is eliminated first.
+      // The rows of a coupling's block are the rows of the joint that is eliminated first.
       Real* const target = block_of(*between);
       const bool turned = other.place < third.place;
       const JointWork &first = turned ? other : third, &second = turned ? third : other;

@@ -8,7 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The sum of |impulse| |arm| over the body's joints, divided by the body's mass and unit of length.
+/// The sum of |impulse| |arm| over the body's joints, divided by the mass and the unit of length of the body, m/s.
 Scaled pulls_on(const JointStage& stage, const JointBody& body) {
   Scaled sum = Scaled(0.0);
   for (uint32_t link = body.first; link != k_no_link;) {
@@ -35,7 +35,7 @@ struct RowImpulses {
   }
 };
 
-/// The sum of axis x impulse over the linear rows, with impulses in the order of RowImpulses.
+/// The sum of impulse times axis over the linear rows. `impulse` is in the order of RowImpulses.
 Vec3<Real> linear_sum(const JointRows& rows, const Real (&impulse)[k_joint_rows_max]) {
   Vec3<Real> sum = k_zero_vector;
   const auto add_row = [&](const JointRow& row, Real part) {
@@ -79,7 +79,8 @@ void store_impulses(uint32_t substeps, const JointWork& work, JointState& joint)
 void load_inertia(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointBody& body) {
   const BodyProperties& properties = bodies.properties[body.slot];
   BodyWork& now = bodies.work[body.slot];
-  // Divided by the mass and the square of the body's unit, as the inertia per unit mass is.
+  // `least` is the least inertia divided by the mass and by the square of the body's unit, as in the inertia per unit
+  // mass.
   const Scaled pulls = multiply(pulls_on(stage, body), scaled_from(settings.time));
   const Scaled least = scaled_by_power(pulls, body.exponent - 2 * properties.size_exponent);
   body.slowed = 0;

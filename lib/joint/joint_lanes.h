@@ -2,8 +2,8 @@
 #include "joint/joint.h"
 
 /// The rows of a joint side by side, in two registers of four floats: rows 0 to 3 (low), rows 4 and 5 (high). The high
-/// register is used only if the joint has more than four rows. Every sum has the order of the loops over single rows,
-/// so the results have the same bits.
+/// register is used only if the joint has more than four rows. Every sum adds its terms in the same order as the code
+/// that loops over single rows, so the results have the same bits.
 #if DETENT_JOINT_LANES
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -26,7 +26,7 @@ inline void store_pair(const RowFour& v, Real* to) {
   to[1] = v[1];
 }
 typedef int32_t RowWords __attribute__((vector_size(16)));
-/// All bits but the signs of all lanes, or of the first three.
+/// Masks that select all bits but the sign: of all lanes, or of the first three lanes.
 inline constexpr RowWords k_sizes = {INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX};
 inline constexpr RowWords k_sizes_of_three = {INT32_MAX, INT32_MAX, INT32_MAX, 0};
 /// Whether the magnitude of each lane that `sizes` keeps is within the limit.
@@ -111,7 +111,7 @@ inline void with_width(bool wide, const Visit& visit) {
     visit(Width<false>());
 }
 
-/// The sum of the products of three columns from `first` on with the components of v.
+/// The sum of three columns, from `first` on, each times a component of v.
 template <bool wide>
 inline RowLanes<wide> column_sum(const Real (&column)[6][k_row_room], int first, const Vec3<Real>& v) {
   RowLanes<wide> sum = RowLanes<wide>::from(column[first]) * v.x;
@@ -119,7 +119,7 @@ inline RowLanes<wide> column_sum(const Real (&column)[6][k_row_room], int first,
   sum.add(RowLanes<wide>::from(column[first + 2]), v.z);
   return sum;
 }
-/// The part of J v of one body; for A the caller must negate it.
+/// One body's part of J v. The caller must negate the part of A.
 template <bool wide>
 inline RowLanes<wide> shown(const Real (&column)[6][k_row_room], const JointBody& body) {
   return column_sum<wide>(column, 0, body.linear_velocity) + column_sum<wide>(column, 3, body.angular_velocity);

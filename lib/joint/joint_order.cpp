@@ -5,13 +5,13 @@
 
 /// The assemblies of an island, and the order in which the joints of an assembly are eliminated: minimum degree. With
 /// this order, the factor of a tree of joints has only the blocks of the tree's own couplings. The factor of a loop has
-/// few more. The order depends on the joints' slots alone.
+/// a few blocks more. The order depends only on the graph of the joints and on their slots.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int k_response_bits = 14;
-/// Number of different degrees. All larger degrees count as k_degrees - 1.
+/// Number of lists of joints by degree. The last list has the joints with a degree of k_degrees - 1 or more.
 constexpr uint32_t k_degrees = 32;
 
 class Eliminator {
@@ -23,7 +23,9 @@ class Eliminator {
         numbers_max_(k_may_have_joint_lanes ? stage.numbers.count / 9 * 4 : stage.numbers.count) {
     for (uint32_t& head : head_) head = k_no_link;
   }
-  uint32_t couplings, numbers;  ///< number used so far; numbers without the rounding of rows for lanes
+  /// How many elements of JointStage::couplings and JointStage::numbers are used so far; `numbers` does not count the
+  /// padding of rows for lanes.
+  uint32_t couplings, numbers;
   uint32_t dropped = 0;
 
   /// Couples all joints of a body with each other.
@@ -60,8 +62,8 @@ class Eliminator {
     stage_.work[order[0]].mark = first_body;
   }
 
-  /// Makes each joint's list of couplings with joints that are eliminated later, and assigns their blocks: the last
-  /// numbers before `end`, which becomes the start of them.
+  /// Makes each joint's list of couplings with joints that are eliminated later. Assigns a block to each coupling: the
+  /// blocks are the elements of JointStage::numbers directly before `end`. Sets `end` to the first of these elements.
   void list_columns(uint32_t from, uint32_t& end) {
     for (uint32_t k = from; k < couplings; ++k) {
       for (const uint32_t joint : stage_.couplings[k].joint) stage_.work[joint].coupling = k_no_link;
@@ -87,7 +89,8 @@ class Eliminator {
   /// First joint in the list of each degree.
   uint32_t head_[k_degrees];
 
-  /// Whether the two joints connect the same two bodies, and the other body, with a lower index, couples them.
+  /// Whether the two joints connect the same two bodies, and are coupled at their other body, because it is mobile and
+  /// its index is below `place`.
   bool is_coupled_before(uint32_t one, uint32_t other, uint32_t place) const {
     const JointWork &p = stage_.work[one], &q = stage_.work[other];
     const auto holds = [](const JointWork& work, uint32_t body) {
@@ -143,8 +146,8 @@ class Eliminator {
     return head_[degree];
   }
 
-  /// The next joint of a list of couplings that is not eliminated; k_no_link after the last. Moves `link` behind it,
-  /// and takes the joints before it out of the list.
+  /// Returns the next joint of a list of couplings that is not eliminated, or k_no_link after the last. Moves `link`
+  /// past this joint, and removes the eliminated joints before it from the list.
   DETENT_SHARED uint32_t next_neighbour(uint32_t*& link) {
     while (*link != k_no_link) {
       JointCoupling& coupling = stage_.couplings[*link / 2];
@@ -184,8 +187,8 @@ class Eliminator {
   }
 };
 
-/// Appends the joints of an assembly to `order`, in the order of their slots. `joint` is the lowest of them. Links the
-/// mobile bodies of the assembly. Returns the number of joints.
+/// Writes the joints of an assembly to `order`, in the order of their slots. `joint` is the assembly's joint with the
+/// lowest slot. Links the mobile bodies of the assembly. Returns the number of joints.
 uint32_t list_assembly(uint32_t joint, JointStage& stage, uint32_t* order) {
   uint32_t count = 0, last_body = k_no_link;
   const auto add = [&](uint32_t index) {
@@ -208,8 +211,8 @@ uint32_t list_assembly(uint32_t joint, JointStage& stage, uint32_t* order) {
   return count;
 }
 
-/// Chooses the reference mass of the assembly such that the largest response of its bodies is near 2^k_response_bits,
-/// for any shape of the bodies. Then impulses are as small as possible.
+/// Chooses the reference mass of the assembly such that, in fixed point, the largest response of its bodies is near
+/// 2^k_response_bits, for any shape of the bodies. Then impulses are as small as possible.
 void weigh(const SolverBodies& bodies, Span<const uint32_t> order, JointStage& stage) {
   Scaled most = Scaled(0.0);  // largest response to a torque
   each_mobile_body(order, stage, [&](const JointBody& body) {
@@ -224,7 +227,8 @@ void weigh(const SolverBodies& bodies, Span<const uint32_t> order, JointStage& s
                    [&](JointBody& body) { body.inverse_mass = divide(reference, bodies.properties[body.slot].mass); });
 }
 
-/// Sets the mass that the stored impulses are relative to, and the largest impulses of motors, springs and friction.
+/// Sets the joint's ratios of masses to that of its lighter body, to which stored impulses are relative. Sets the
+/// largest impulses of motors, springs and friction.
 void weigh_joint(const StepSettings& settings, const SolverBodies& bodies, JointStage& stage, JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
   Scaled lighter = Scaled(0.0);

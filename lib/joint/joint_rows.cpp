@@ -12,8 +12,8 @@ namespace {
 constexpr Unit k_zero_unit = 0.0;
 
 constexpr Real k_twist_rate_min = 0.75;
-/// During the solves of a substep, a limit is activated if the free motion would pass it by more than this: rad, or a
-/// fraction of the joint's unit of length.
+/// During the solves of a substep, a limit is activated if the free motion would pass it by more than k_passed: rad for
+/// an angle, k_passed times the joint's unit of length for a length.
 constexpr Real k_passed = 0.03125;
 /// Tolerance of the target speed of motors and friction, m/s.
 constexpr Real k_overdriven = 0x1p-10;
@@ -44,7 +44,7 @@ struct RowMaker {
   Matrix3 frame = {};   ///< A's joint frame in the world
   Quat relative = {};   ///< B's joint frame in A's
 
-  /// A linear row along d = `axis` at B's anchor, also if A's anchor is elsewhere:
+  /// A linear row along d = `axis`. For both bodies the force acts at B's anchor:
   ///
   ///     C = d . gap,  J = (-d, -(r_A + gap) x d, d, r_B x d)
   JointRow linear(const Vec3<Unit>& axis) const {
@@ -71,7 +71,7 @@ struct RowMaker {
     if (parts == RowParts::all) rows.row[rows.locked_rows] = angular(axis);
     ++rows.locked_rows;
   }
-  /// Locks the anchors together: three rows, along the world's axes e.
+  /// Locks the anchors together: three rows, along the axes e of the world.
   ///
   ///     C = e . gap,  J = (-e, -r_A x e, e, r_B x e)
   void lock_points() {
@@ -81,14 +81,14 @@ struct RowMaker {
     rows.error[2] = gap.z;
     rows.locked_rows = 3;
   }
-  /// Locks the relative rotation q (`relative`) about one of A's axes. For a small rotation, twice the vector part of q
-  /// is the rotation vector: C = 2 q_axis u.
+  /// Locks the relative rotation q (`relative`) about one axis of A's joint frame. For a small rotation, twice the
+  /// vector part of q is the rotation vector. Therefore C = 2 q_axis u.
   void clamp_rotation(int axis, Unit part) {
     const Unit sine = relative.w < k_zero_unit ? -part : part;
     lock_angular(frame.column[axis], length_of(scale_by_power(real_from_unit(sine, 0), 1)));
   }
-  /// Keeps B's axis b = `axis` aligned with A's. Two angular rows, about A's next two axes. With the
-  /// components of b in A's frame:
+  /// Keeps the axis b, the axis number `axis` of B's joint frame, aligned with the same axis of A's joint frame. There
+  /// are two angular rows, about the other two axes of A's frame. With the components of b in A's frame:
   ///
   ///     C = -b_last u (row about the next axis),  C = b_next u (row about the last axis)
   void lock_axis(int axis) {
@@ -107,13 +107,13 @@ struct RowMaker {
     if (parts == RowParts::all) rows.free_row[i] = angular(axis);
     free_motion(i, value);
   }
-  /// The displacement along A's x axis: the value is d . gap.
+  /// The displacement along the x axis d of A's joint frame. The value is d . gap.
   void free_slide(int i) {
     if (!wants(i)) return;
     if (parts == RowParts::all) rows.free_row[i] = linear(frame.column[0]);
     free_motion(i, dot(gap, frame.column[0]));
   }
-  /// The rotation about one of A's axes. The value is the angle times u, the joint's unit of length.
+  /// The rotation about one axis of A's joint frame. The value is the angle times u, the joint's unit of length.
   void free_rotation(int i, int axis, Unit sine) {
     if (wants(i)) free_angular(i, frame.column[axis], length_of(twist_of(sine, relative.w)));
   }
@@ -136,8 +136,8 @@ struct RowMaker {
     free_angular(i, axis, length_of(twist_of(relative.x, relative.w)));
     if (rate < k_twist_rate_min) rows.shown[i] = max(multiply(rate, share), k_zero);
   }
-  /// The angle between the x axes of A and B: a rotation about the axis perpendicular to both. Also the rotation of B's
-  /// x axis around A's, which has no value.
+  /// The angle between the x axes of A and B. Its row is a rotation about the axis perpendicular to both. If wanted,
+  /// free motion i + 1 is the rotation of B's x axis around A's x axis; it has no value.
   void free_lean(int i) {
     if (!wants(i) && !wants(i + 1)) return;
     const Vec3<Unit> x = {Unit(1.0), k_zero_unit, k_zero_unit}, leaning = rotate(relative, x);
@@ -166,12 +166,12 @@ struct RowMaker {
     rows.value[1] = length_of(angle * about.y);
     rows.value[2] = length_of(angle * about.z);
   }
-  /// The distance of the anchors, with d = gap / |gap|: the value is |gap|, J = (-d, -r_A x d, d, r_B x d).
+  /// The distance between the anchors. With d = gap / |gap|, the value is |gap|, and J = (-d, -r_A x d, d, r_B x d).
   void free_distance() {
     Vec3<Unit> axis;
     Real apart = k_zero;
     if (!normalise(gap, axis, apart)) axis = {Unit(1.0), k_zero_unit, k_zero_unit};
-    // Each end has the arm to its own anchor.
+    // Unlike in linear(), each body's arm ends at its own anchor.
     if (parts == RowParts::all)
       rows.free_row[0] = {axis, {clamped_cross(rows.arm[0], axis), clamped_cross(rows.arm[1], axis)}};
     free_motion(0, apart);
@@ -204,8 +204,8 @@ Scaled own_response(const SolverBodies& bodies, const JointStage& stage, const J
 bool has_ball_spring(const JointState& joint) {
   return static_cast<JointType>(joint.type) == JointType::ball && joint.frequency[0] > k_zero;
 }
-/// The index of the settings (JointDef::axis or second) that drive a free motion. The spring of a ball joint drives all
-/// of its rotations with index 0.
+/// The index of the settings that drive a free motion: 0 for JointDef::axis, 1 for JointDef::second. The spring of a
+/// ball joint drives all rotations with the settings of index 0.
 int driving_axis(const JointState& joint, int i) {
   return static_cast<JointType>(joint.type) == JointType::ball ? 0 : i;
 }
@@ -214,7 +214,7 @@ int driving_axis(const JointState& joint, int i) {
 Real as_shown(const JointState& joint, const JointWork& work, int i, Real value) {
   return scale_by_power(value, is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0);
 }
-/// The position that a spring pulls to. For a ball joint: both frames are equal.
+/// The position that a spring pulls to. For a ball joint it is 0: both frames coincide.
 Real target_of(const JointState& joint, const JointWork& work, int i) {
   return has_ball_spring(joint) ? k_zero : as_shown(joint, work, i, joint.target[i]);
 }
@@ -240,7 +240,8 @@ Real largest_drag(int i, Scaled share, const JointWork& work) {
   return in_substep(work.brake[row_kind(work.free_row[i])], share, work, work.free_row[i]);
 }
 
-/// A damped spring. With its stiffness, the two bodies alone oscillate at the given frequency.
+/// A damped spring. Its stiffness is such that the two bodies without other joints and contacts oscillate at the given
+/// frequency.
 /// Source: Catto, "Soft Constraints", GDC 2011.
 struct Spring {
   Scaled rate;     ///< angular frequency, rad/s
@@ -272,8 +273,8 @@ Real speed_of(const JointStage& stage, const JointWork& work, int i) {
          dot(a.angular_velocity, row.arm[0]);
 }
 
-/// The part of speed_of() that gravity, forces and torques have added in this substep. The damper must not act on this
-/// part, because it would then carry a part of these forces.
+/// The part of speed_of() that gravity, forces and torques have added in this substep. The damper of a spring must not
+/// act on this part, because the damper would then carry a part of these forces.
 Real speed_pushed(const SolverBodies& bodies, const JointStage& stage, const JointWork& work, int i) {
   const JointRow& row = work.free_row[i];
   Real speed = k_zero;
@@ -289,8 +290,9 @@ Real speed_pushed(const SolverBodies& bodies, const JointStage& stage, const Joi
   return speed;
 }
 
-/// Drives a spring that is soft relative to the substep without a row, by the impulse at its current displacement. Its
-/// oscillation then loses no energy. A stiffer spring is left unchanged.
+/// Replaces the row of a spring by a constant impulse, if the spring is soft relative to the substep. The impulse
+/// follows from the current displacement and speed. This way the oscillation loses no energy. A stiffer spring keeps
+/// its row.
 void push_softly(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
                  JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
@@ -309,7 +311,7 @@ void push_softly(const StepSettings& settings, const SolverBodies& bodies, const
   work.mode[i] = DriveMode::constant;
 }
 
-/// The impulse of a stiff spring at its current displacement, without its damping.
+/// The impulse of a spring at its current displacement, without damping.
 Real standing_pull(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
                    const JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
@@ -343,15 +345,16 @@ void brake_spring(const StepSettings& settings, const SolverBodies& bodies, cons
   }
 }
 
-/// Sets the target of a limit's row. Within the limit: J v = -C / h, so that the motion may reach the limit. Beyond it:
-/// J v = 0, and a shift of positions corrects C.
+/// Sets the target of a limit's row. C is the position minus the limit (`over`), h the length of the substep. If the
+/// position is `within` the limit, the target is J v = -C / h, so that the motion may reach the limit. Beyond the
+/// limit, the target is J v = 0, and a shift of positions corrects C.
 void drive_to_limit(const StepSettings& settings, Real over, bool within, uint32_t row, JointWork& work) {
   work.target[row] = within ? -speed_over(settings, over) : k_zero;
   work.error[row] = within ? k_zero : over;
 }
 
-/// The impulse of a motor or spring next to an active limit, if it pushes away from the limit; else 0. The row of the
-/// limit then carries the remaining load, or the limit is deactivated.
+/// The impulse of a motor or spring on a free motion whose limit is active, if the impulse pushes away from the limit;
+/// else 0. The row of the limit then carries the remaining load, or the limit is deactivated.
 Real push_off_limit(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
                     const JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
@@ -595,7 +598,7 @@ bool release_limits(const JointState& joint, bool changes, JointWork& work) {
       work.given[i] += work.driven_total[i];
       work.driven_total[i] = k_zero;
     }
-    return true;  // the impulse of the other limit must be computed again without this limit
+    return true;  // without this limit, the impulse of the other limit must be computed again
   }
   return false;
 }

@@ -10,38 +10,40 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Number of tries to scale down impulses that exceed the bodies' range. The last try sets them to zero.
+/// How often impulses are scaled down if the velocity changes of the bodies exceed their range. The last time sets the
+/// impulses to zero.
 constexpr uint32_t k_gathers = 4;
-constexpr Scaled k_gathered_share = 0.015625;  ///< factor of each try except the last
-/// Number of solves to find the drive modes of limits and motors.
+constexpr Scaled k_gathered_share = 0.015625;  ///< factor of the impulses, each time except the last
+/// Largest number of solves to find the drive modes of limits, motors and friction.
 constexpr uint32_t k_decisions = 12;
-/// Limits and drives can be activated in the first k_takings of these solves. Later they are only deactivated.
+/// After each of the first k_takings solves, limits and drives can be activated. Later they are only deactivated.
 constexpr uint32_t k_takings = 3;
 
-/// The fraction of the errors of position that a substep corrects, up to the speeds below.
+/// The fraction of the position errors that a substep corrects. The speed of the correction is limited by
+/// k_closing_speed_max and k_closing_angular_velocity_max.
 constexpr Unit k_closed = 0.15;
-/// The same in an island with contacts. It is smaller, because contacts react to a shift only after it has made bodies
-/// overlap.
+/// Replaces k_closed in an island with contacts. It is smaller, because contacts react to a shift only after the shift
+/// has made bodies overlap.
 constexpr Unit k_closed_with_contacts = 0.05;
 constexpr Real k_closing_speed_max = 4.0;              ///< m/s
 constexpr Real k_closing_angular_velocity_max = 16.0;  ///< rad/s
-/// If all gaps are below 2^-k_gap_power of their joint's unit, they are not corrected.
+/// Gaps are not corrected if every gap of the assembly is at most 2^-k_gap_power of its joint's unit of length.
 constexpr int k_gap_power = 20;
-/// A body that has rotated by less than 2^-k_turned_power rad in the tick keeps its inverse inertia.
+/// A body that has rotated by at most 2^-k_turned_power rad in the tick keeps its inverse inertia in world axes.
 constexpr int k_turned_power = 6;
-/// Limit of the angular velocity of a body, m/s, in the body's unit for joints: 2^k_angular_velocity_power_max. A
-/// faster body is slowed down.
+/// Limit of the angular velocity of a body times its unit for joints: 2^k_angular_velocity_power_max m/s. A faster body
+/// is slowed down.
 constexpr int k_angular_velocity_power_max = 14;
-/// Slowing a body down: the largest number of steps, and the power of two by which a step divides.
+/// Slowing a body down divides its angular momentum by 2^k_slowing_power, up to k_slowings times.
 constexpr int k_slowings = 16, k_slowing_power = 2;
-/// A matrix of Units enlarges a vector by at most 2^k_matrix_power.
+/// A 3 x 3 matrix of Units enlarges a vector by at most 2^k_matrix_power.
 constexpr int k_matrix_power = 3;
-/// Limit of the right-hand sides of a solve, as a power of two.
+/// The right-hand sides of a solve are limited to 2^k_side_power_max.
 constexpr int k_side_power_max = 16;
-/// Smallest rotation for curved paths, 2^-k_straight_power rad: see any_turns().
+/// Paths count as curved from a rotation of 2^-k_straight_power rad on: see any_turns().
 constexpr int k_straight_power = 20;
 
-/// The sum of two lengths, clamped so that its double fits a Real.
+/// Limit of the sum of two lengths, m: twice the sum fits a Real.
 constexpr Real k_length_max = 32768.0;
 Real clamped_sum(Real a, Real b) { return min(a + min(b, k_length_max), k_length_max); }
 
@@ -55,8 +57,8 @@ struct Solver {
   bool touches;  ///< the island has contacts, which are solved in alternation with the joints
   Real elapsed;  ///< from the start of the tick to the start of the substep
   Real enough;   ///< see solve_joints_again()
-  /// Twice the energy of the last solution's impulses x, x . K x, or a little more: x . (K + S) x. Over the reference
-  /// mass.
+  /// x . (K + S) x of the last solution's impulses x, divided by the reference mass. It is a little more than x . K x,
+  /// which is twice the energy of the impulses.
   Scaled own_energy = Scaled(0.0);
   uint32_t clamped = 0, undecided = 0;
 
@@ -134,8 +136,8 @@ struct Solver {
       ++clamped;
     }
   }
-  /// Sets the velocities of the mobile bodies, from which the rows' speeds are computed. They include impulses without
-  /// a row that have not been applied yet.
+  /// Sets the velocities of the mobile bodies, from which the rows' speeds are computed. These velocities include the
+  /// impulses without a row that have not been applied yet.
   DETENT_SHARED void load_motions() {
     each_mobile([&](JointBody& body) {
       const BodyMotion& motion = bodies.motions[body.slot];
@@ -184,7 +186,8 @@ struct Solver {
     });
   }
 
-  /// Applies the constant impulses of motors at their greatest force and of soft springs, which have no row.
+  /// Adds the constant impulses of a joint, which have no row, to `given_push` and `given_twist` of its bodies. Motors
+  /// at their greatest force and soft springs have such impulses.
   void push(const JointWork& work) {
     for (int i = 0; i < k_free_motions; ++i) {
       if (work.constant[i] == k_zero) continue;
@@ -212,7 +215,7 @@ struct Solver {
     for (uint32_t k = 0; k < work.rows; ++k) speed[k] -= of_a[k];
 #endif
   }
-  /// The exponent of the power of two between the speed of a row and its right-hand side.
+  /// The right-hand side of a row is a change of the row's speed times 2^power_of().
   static int power_of(const JointWork& work, uint32_t row) { return unit_power(work, row) - k_impulse_power; }
   /// The right-hand side for the given change of a row's speed.
   Real side_of(const JointWork& work, uint32_t row, Real speed) {
@@ -237,7 +240,8 @@ struct Solver {
   }
 
   /// Whether a body rotates by more than 2^-k_straight_power rad in the substep. If not, the curvature of the anchors'
-  /// paths is below the precision. A distance joint always counts, because a rod can rotate while its bodies do not.
+  /// paths is below the precision. With a distance joint the result is always true, because a rod can rotate while its
+  /// bodies do not.
   bool any_turns() {
     bool turns = false;
     each_joint([&](const JointWork& work) {
@@ -271,7 +275,8 @@ struct Solver {
       }
     });
   }
-  /// Solves the rows, repeatedly until the drive modes of all limits, motors and friction agree with the impulses.
+  /// Solves the rows, again and again until the drive modes of all limits, motors and friction agree with the impulses,
+  /// at most k_decisions times.
   void solve() {
     for (uint32_t decision = 1;; ++decision) {
       load_motions();
@@ -281,7 +286,7 @@ struct Solver {
       each_joint([&](JointWork& work) {
         if (bound_drives(stage.joints[work.joint], settings.share, !last, work)) wrong = true;
       });
-      if (!wrong) {  // the impulse of a limit is valid only if all drives are within their bounds
+      if (!wrong) {  // the impulse of a limit is valid only if all drives are within their greatest impulses
         each_joint([&](JointWork& work) {
           if (release_limits(stage.joints[work.joint], !last, work)) wrong = true;
         });
@@ -328,10 +333,10 @@ struct Solver {
     return most;
   }
 
-  /// Solves for the right-hand sides that `ask` sets, and gathers the velocity changes of the bodies. Rows with
-  /// contradictory targets need impulses of target / softness, which can exceed the range. Then all rows become softer
-  /// for the rest of this substep. If this is not enough, all impulses are scaled down; this is valid, because a
-  /// fraction of a projection also removes energy. Returns the number of times that the impulses were scaled.
+  /// Solves for the right-hand sides that `ask` sets, and computes the velocity changes of the bodies. Rows with
+  /// contradictory targets need impulses of target / softness, which can exceed the range. Then all rows become softer.
+  /// If this is not enough, all impulses are scaled down; this is valid, because a fraction of a projection also
+  /// removes energy. Returns the number of times that the impulses were scaled.
   template <class Ask>
   uint32_t solve_for(const Ask& ask) {
     const uint32_t before = factor.saturated;
@@ -398,7 +403,7 @@ struct Solver {
     clamped += clamp_vector(motion.linear_velocity, k_speed_work_max) +
                clamp_vector(motion.angular_momentum, k_angular_velocity_work_max);
     slow_to_fit(body, motion.angular_momentum);
-    if (DETENT_FIXED) {  // so that the change does not count as one by contacts (contact_motion.h)
+    if (DETENT_FIXED) {  // so that this change does not count as a change by contacts (contact_motion.h)
       now.contact_velocity -= motion.linear_velocity - velocity_before;
       now.contact_angular_momentum -= motion.angular_momentum - angular_momentum_before;
     }
@@ -481,10 +486,10 @@ struct Solver {
     place_moving();
   }
 
-  /// Adds the velocities by which the joints follow their curved paths. With the impulses x that give these velocities,
-  /// the projection has removed at least the energy that the best multiple of x would have removed from the motion u at
-  /// the start of the substep: (x . J u)^2 / (x . K x) is twice this energy. The velocities are scaled so that they add
-  /// no more. Range: load_motions() has been called.
+  /// Adds the velocities by which the joints follow their curved paths. Let x be the impulses that give these
+  /// velocities, and u the motion at the start of the substep. The best multiple of x would have removed an energy from
+  /// u; twice this energy is (x . J u)^2 / (x . K x). The projection has removed at least this energy. The velocities
+  /// are scaled so that they add no more than this energy. Range: load_motions() has been called.
   void follow_curves() {
     clamped += solve_for([&] { ask_for_curves(); });
     const Scaled shared = impulses_times_speeds(false);
@@ -498,8 +503,8 @@ struct Solver {
     each_joint([&](JointWork& work) { count_in(work); });
   }
 
-  /// The product x . J v of the impulses and the rows' speeds at the bodies' current velocities. If `locked`, over the
-  /// rows that lock motions.
+  /// The product x . J v of the impulses and the rows' speeds at the bodies' current velocities. If `locked`, only over
+  /// the rows that lock motions.
   DETENT_SHARED Scaled impulses_times_speeds(bool locked) {
     EnergySum sum;
     each_joint([&](const JointWork& work) {
@@ -512,9 +517,9 @@ struct Solver {
     return sum.value();
   }
 
-  /// The largest y in [0, 1] for which y times the impulses x add at most the energy of `opposed`: y^2 own + 2 y shared
-  /// <= opposed^2 / own. `own`: twice the energy of the impulses, x . K x. `shared`, `opposed`: their products x . J v
-  /// with the current motion, and with the motion that has been projected.
+  /// The largest y in [0, 1] for which the impulses y x add at most an energy of opposed^2 / (2 own), that is, for
+  /// which y^2 own + 2 y shared <= opposed^2 / own. `own`: twice the energy of the impulses x, x . K x. `shared`: the
+  /// product x . J v with the current motion. `opposed`: this product with the motion before the projection.
   DETENT_SHARED static Scaled share_within(Scaled own, Scaled shared, Scaled opposed) {
     const Scaled one = 1.0;
     const Scaled root = square_root(add(multiply(shared, shared), multiply(opposed, opposed)));
@@ -531,7 +536,8 @@ struct Solver {
     scale_impulses(share);
   }
 
-  /// Sets the velocities of all other bodies to zero: they do not contribute to the energy of the impulses.
+  /// Sets the velocities of the bodies that are not mobile to zero: they do not contribute to the energy of the
+  /// impulses.
   void place_motionless() {
     each_joint([&](JointWork& work) {
       for (const uint32_t at : work.body) {
@@ -551,7 +557,8 @@ struct Solver {
     return opens;
   }
 
-  /// Sets the right-hand sides to a fraction of the errors. Returns the sum of the corrections, m.
+  /// Sets the right-hand sides such that the solution corrects a fraction of the position errors. Returns the sum of
+  /// the magnitudes of the corrections, m.
   Real ask_for_gaps() {
     Real closed = k_zero;
     each_joint([&](JointWork& work) {
@@ -576,10 +583,10 @@ struct Solver {
     }
     const uint32_t before = factor.saturated;
     Real closed = k_zero;
-    solve_for([&] { closed = ask_for_gaps(); });  // shifts that are too large for a substep are scaled down
+    solve_for([&] { closed = ask_for_gaps(); });  // scaled shifts are no error, so the result is not counted
     if (factor.saturated != before) scale_all(Scaled(0.0));
-    // A rotation moves an anchor off its straight line by arm x angle^2 / 2. The shifts are scaled so that this is at
-    // most half of the gap that they close.
+    // A rotation moves an anchor off its straight line by arm x angle^2 / 2. The shifts are scaled so that the sum of
+    // these deviations is at most half of the sum of the corrections.
     Real bent = k_zero;
     each_mobile([&](JointBody& body) {
       body.shift = body.push * settings.time;
@@ -609,7 +616,8 @@ struct Solver {
     }
   }
 
-  /// Bodies rotate with their own inertia, at the angular velocity that they have with the inertia of the substep.
+  /// Converts angular momenta from the inertia of the substep to the bodies' own inertia, at equal angular velocity.
+  /// With these angular momenta the bodies rotate when positions are integrated.
   void lend_momenta() {
     each_mobile([&](JointBody& body) {
       BodyMotion& motion = bodies.motions[body.slot];
@@ -631,7 +639,7 @@ struct Solver {
     });
   }
 
-  /// Adds the angular impulses of a joint to its sum of torques.
+  /// Adds the joint's angular impulses to JointWork::torque_sum.
   static void add_torques(JointWork& work) {
     for (uint32_t k = first_other(work); k < work.locked_rows; ++k) add_torque(work, work.row[k], work.total[k]);
     for (int i = 0; i < k_free_motions; ++i) {
@@ -666,16 +674,16 @@ struct Solver {
       const Vec3<Real> impulse = linear_impulse(work);
       work.force_sum += impulse;
       add_torques(work);
-      // The limit is necessary because curved paths give redundant rows contradictory targets. These rows then pull
-      // against each other as hard as their softness permits.
+      // At most twice the pull at the start of follow(): curved paths give redundant rows contradictory targets, and
+      // these rows then pull against each other as hard as their softness permits.
       work.pull = min(pull_of(work, impulse), scale_by_power(work.pull, 1));
     });
     restore_inertias();
   }
 };
 
-/// Calls a pass of the solver for each assembly of the island. Returns the number of values that were clamped, and adds
-/// to `undecided`.
+/// Calls a pass of the solver for each assembly of the island. Returns the number of values that were clamped, and
+/// increases `undecided` as solve_joints() does.
 uint32_t solve_each(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
                     Real enough, JointStage& stage, uint32_t& undecided, void (Solver::*pass)()) {
   uint32_t clamped = 0;
@@ -727,7 +735,7 @@ uint32_t shift_joints(const SolverBodies& bodies, const Island& island, JointSta
     if (!(body.shift_rotation == k_zero_vector)) {
       const Quat rotation_vector = rotation_from_vector(body.shift_rotation);
       now.rotation = normalise(multiply(rotation_vector, now.rotation));
-      // The angular momentum rotates with the body: so its energy stays the same.
+      // The angular momentum rotates with the body, so the energy of the body stays the same.
       motion.angular_momentum = rotate(rotation_vector, motion.angular_momentum);
       now.rotation_vector += scale_by_power(body.shift_rotation, bodies.properties[body.slot].size_exponent);
     }

@@ -4,17 +4,17 @@
 #include "motion/angular_velocity.h"
 #include "motion/inverse_inertia.h"
 
-/// The number of substeps that joints need. If a body rotates by the angle w in a substep, its anchors leave the
-/// straight lines along which the rows act by arm x w^2 / 2. The solver corrects this error, except for a fraction w of
-/// it. Therefore the squared number of substeps is proportional to the curvature of the anchors' paths in a whole tick,
-/// divided by the smaller body's unit. A chain that hangs or swings slowly has the least number of substeps. So has a
-/// wheel, which rotates about its anchor.
+/// The number of substeps that joints need. The rows of a joint act along straight lines. If a body rotates by the
+/// angle w, rad, in a substep, its anchors leave these lines by arm x w^2 / 2. The solver corrects this error, except
+/// for a fraction w of it. Therefore the squared number of substeps is proportional to the curvature of the anchors'
+/// paths in a whole tick, divided by the smaller body's unit of length. A chain that hangs or swings slowly takes the
+/// least number of substeps. So does a wheel, which rotates about its anchor.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Limit of each component of a rotation vector, rad. At this rotation the number of substeps has reached its upper
-/// limit.
+/// Limit of each component of the rotation vector of a body in a tick, rad. At this rotation the number of substeps has
+/// reached its upper limit.
 constexpr Real k_rotation_max = 4.0;
 
 /// Least number of substeps with joints. With a single substep, taut joints would open by metres.
@@ -25,13 +25,14 @@ constexpr uint32_t k_least_of_loops = 3;
 constexpr uint32_t k_least_with_contacts = 4;
 /// Squared substeps per squared radian of rotation in a tick: 0.2 rad per substep.
 constexpr Scaled k_needed_by_bend = 25.0;
-/// Exponent of the factor with which the relative rotation of the two bodies' axes counts.
+/// The relative rotation of the two bodies' axes counts 2^k_axes_power times as much as the curvature of the anchors'
+/// paths.
 constexpr int k_axes_power = 2;
 constexpr Scaled k_needed_by_bend_max = 1024.0;
 /// Squared substeps per squared radian of a spring's phase in a tick.
 constexpr Scaled k_needed_by_spring = 25.0;
-/// Limit of the squared number of substeps that a spring requests. Whether a spring is solved explicitly or implicitly is
-/// decided in joint_rows.cpp.
+/// Limit of the squared number of substeps that a spring requests. push_softly() in joint_rows.cpp decides whether a
+/// spring is solved explicitly or implicitly.
 constexpr Scaled k_needed_by_spring_max = 16.0;
 
 Scaled greater(Scaled a, Scaled b) { return less(a, b) ? b : a; }
@@ -49,8 +50,8 @@ Vec3<Real> rotation_in_tick(const StepSettings& settings, const SolverBodies& bo
   return {angle(angular_velocity.x), angle(angular_velocity.y), angle(angular_velocity.z)};
 }
 
-/// The curvature of the paths of a joint's anchors and axes in a tick, over half of the smaller body's unit: squared
-/// radians.
+/// The deviation of a joint's anchors and axes from straight paths in a tick, divided by half of the smaller body's
+/// unit of length. It is in squared radians.
 Scaled bend_in_tick(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                     const JointWork& work) {
   Vec3<Real> rotation_vector[2];

@@ -10,9 +10,10 @@ namespace {
 constexpr int k_rest_power = -5;
 constexpr Real k_slow_max = 1024.0;  ///< m/s: a faster body is not at rest, and its squared speed may overflow
 
-/// Whether no point of a body is faster than `slow`, m/s. Estimated from the kinetic energy per unit mass: 2 (v . v + w
-/// . L / m) < slow^2, with the velocity v, angular velocity w, angular momentum L and mass m. A slender body may
-/// therefore rotate faster about its long axis than about the others. Range: slow <= k_slow_max.
+/// Whether no point of a body is faster than `slow`, m/s. Estimated from the kinetic energy per unit mass:
+/// 2 (v . v + w . L / m) < slow^2, with the velocity v, angular velocity w, angular momentum L and mass m. The estimate
+/// therefore permits a slender body a faster rotation about its long axis than about the other axes. Range:
+/// slow <= k_slow_max.
 bool is_slower(const Vec3<Real>& velocity, const Vec3<Real>& angular_velocity, const Vec3<Real>& angular_momentum,
                Real slow) {
   if (greatest(velocity) > slow || greatest(angular_velocity) > k_slow_max || greatest(angular_momentum) > k_slow_max)

@@ -11,7 +11,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-inline constexpr uint16_t k_still_ticks = 30;  ///< ticks at rest before an island falls asleep
+inline constexpr uint16_t k_still_ticks = 30;  ///< number of ticks at rest in a row after which an island falls asleep
 
 inline bool is_awake(const BodyProperties& properties, const BodyActivity& activity) {
   return is_dynamic(properties) && activity.asleep == 0;
@@ -27,9 +27,9 @@ uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities, BitSet acti
 /// Counts the ticks that each body has been at rest. Puts an island to sleep, and sets its velocities to zero, if all
 /// its bodies have been at rest for k_still_ticks. Returns the number of bodies that fell asleep.
 ///
-/// A body is at rest if no point of its surface is faster than 1/32 of fall_speed() of its smallest diameter.
-/// Both its velocity and its displacement in this tick, divided by the tick, must satisfy this. The displacement is
-/// tested because position corrections of contacts and joints move a body without a velocity.
+/// A body is at rest if no point of its surface is faster than 1/32 of fall_speed() of its smallest diameter. The
+/// function tests this twice: for the velocity, and for the displacement in this tick divided by the tick. It tests the
+/// displacement because position corrections of contacts and joints move a body without a velocity.
 uint32_t fall_asleep(const StepSettings& settings, Span<const BodyProperties> properties, Span<const BodyPose> poses,
                      Span<const BodySweep> sweeps, Span<const Island> islands, Span<const uint32_t> bodies,
                      Span<BodyMotion> motions, Span<BodyActivity> activities);

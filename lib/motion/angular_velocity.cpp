@@ -48,8 +48,8 @@ int odd_axis(const Scaled (&inverse_inertia)[3]) {
   return less(apart[2], apart[least]) ? 2 : least;
 }
 
-/// Returns `rotation` after a rotation at `angular_velocity` (m/s at the radius 2^exponent m, world axes) for `time`,
-/// s.
+/// Returns `rotation` rotated for `time`, s, with the constant `angular_velocity`: m/s at the radius 2^exponent m,
+/// world axes.
 Quat turned(const Quat& rotation, const Vec3<Real>& angular_velocity, int exponent, Real time, bool& clamped) {
   const Vec3<Real> angle = {angle_of(angular_velocity.x * time, exponent, clamped),
                             angle_of(angular_velocity.y * time, exponent, clamped),

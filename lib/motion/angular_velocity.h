@@ -17,11 +17,12 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 inline constexpr Real k_speed_max = 16384.0;  ///< m/s, in the state: each component of velocity
-/// In the state, m/s: limit of each component of w u. The bounding radius is at least u / 2, so the surface speed at
-/// this limit is at least half of it.
+/// In the state, m/s: limit of each component of w u. The bounding radius is at least u / 2, so a body at this limit
+/// has a surface speed of at least half the limit.
 inline constexpr Real k_angular_velocity_max = 32768.0;
 inline constexpr Real k_speed_work_max = 32768.0;  ///< m/s, velocity during a solve
-/// During a solve, m/s: limit of each component of L / (m u). No inverse inertia is below 1, so w u is not smaller.
+/// During a solve, m/s: limit of each component of L / (m u). No inverse inertia is below 1, so the magnitude of w u is
+/// at least that of L / (m u).
 inline constexpr Real k_angular_velocity_work_max = 65536.0;
 
 /// Clamps each component to +-limit. Returns the number of components that changed.
@@ -85,8 +86,8 @@ inline Vec3<Real> angular_momentum_of(const BodyProperties& properties, const Qu
   return is_isotropic(properties) ? angular_momentum : rotate(rotation, angular_momentum);
 }
 
-/// Returns the angular momentum without its components about locked axes, which contacts can add and which must have no
-/// effect.
+/// Returns the angular momentum without its components about locked axes. Contacts can add such components, but they
+/// must have no effect.
 inline Vec3<Real> without_locked(const BodyProperties& properties, const Quat& rotation,
                                  const Vec3<Real>& angular_momentum) {
   if (properties.rotation_locks == 0 || !is_dynamic(properties)) return angular_momentum;

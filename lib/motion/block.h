@@ -6,11 +6,11 @@
 #include "math/root.h"
 #include "math/scaled.h"
 
-/// Block floating point for one contact. The numbers of a contact in a pass (speeds, impulses, or lengths) share one
-/// power of two, the block. The largest number determines it. The widths are such that a sum of products has at most 53
-/// bits: a double holds it exactly, and lanes compute with doubles (lib/solver/lanes.h). The state stays in Real. An
-/// impulse is rounded to the block once, and then acts on both bodies; therefore the rounding conserves linear
-/// momentum. In float the same code uses plain numbers.
+/// Block floating point for one contact. In a pass, the numbers of a contact (speeds, impulses, or lengths) share one
+/// power of two, the block. The largest number determines the block. The numbers have so few bits that a sum of
+/// products has at most 53 bits. A double holds such a sum exactly, and lanes compute with doubles
+/// (lib/solver/lanes.h). The state stays in Real. An impulse is rounded to the block once, and then acts on both
+/// bodies; therefore the rounding conserves linear momentum. In float the same code uses plain numbers.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -31,7 +31,7 @@ inline constexpr int64_t k_row_max = int64_t{1} << 24;  ///< range of L D in the
 inline constexpr int k_mantissa_bits = 24;              ///< bits of a motion
 inline constexpr int k_number_bits = 24;                ///< bits of an impulse: a sum of four is a factor
 inline constexpr int k_wrench_bits = 25;                ///< bits of each part of a wrench
-/// The least shift of a block: the finest step of a block is 2^-37 m/s. Must exceed k_angular_velocity_power.
+/// The least shift of a block: the finest step of a block is 2^-37 m/s or m. Must exceed k_angular_velocity_power.
 inline constexpr int k_shift_min = 9;
 /// The solver stores angular velocities times 2^-k_angular_velocity_power, because the angular velocity of a slender
 /// body exceeds the range of Real long before its angular momentum does.
@@ -43,15 +43,15 @@ inline constexpr int k_bits_power = k_angular_velocity_power - k_mantissa_bits;
 inline constexpr int k_number_drop = k_number_bits + k_bits_power;
 static_assert(k_angular_velocity_power <= k_shift_min - k_bits_power && k_number_drop <= k_shift_min - k_bits_power);
 
-/// Clamped to the range of a factor.
+/// Clamps to the range of a factor.
 DETENT_SHARED inline Factor held(Ulps a) {
   return static_cast<Factor>(a < -k_factor_max ? -k_factor_max : a > k_factor_max ? k_factor_max : a);
 }
 
 class Block {
  public:
-  /// Makes settle() choose a block in which the components of `v` 2^exponent fit as mantissas. Range: exponent from 0 to
-  /// k_angular_velocity_power.
+  /// Makes settle() choose a block in which the components of `v` 2^exponent fit as mantissas. Range: exponent from 0
+  /// to k_angular_velocity_power.
   DETENT_SHARED void include(const Vec3<Real>& v, int exponent) {
     bits_ |= (magnitude_64(v.x.raw) | magnitude_64(v.y.raw) | magnitude_64(v.z.raw)) >>
              (k_angular_velocity_power - exponent);
@@ -62,8 +62,8 @@ class Block {
     for (uint32_t i = 0; i < used; ++i) all |= magnitude_64(values[i].raw);
     bits_ |= all >> k_number_drop;
   }
-  /// Makes settle() choose a block in which a speed fits as a number: the lesser of `speed` 2^exponent, in block `from`,
-  /// and `most`. Range: both speeds >= 0.
+  /// Makes settle() choose a block in which a speed fits as a number. This speed is the lesser of two: `speed`, a
+  /// number of block `from`, times 2^exponent, and `most`. Range: both >= 0.
   void include_speed(Factor speed, const Block& from, int exponent, Real most) {
     if (speed == 0) return;
     const int bits = bit_length_64(static_cast<uint64_t>(speed)) + from.shift_ + exponent;
@@ -125,7 +125,7 @@ class Block {
   int shift_ = k_shift_min;
 };
 
-/// The fraction bits of the Units that are multiplied by factors: Units rounded to 2^-24.
+/// The number of fraction bits of the Units that are multiplied by factors: these Units are rounded to 2^-24.
 inline constexpr int k_fine_frac = 24;
 /// Rounds to 2^-24. Range: |value| <= 1.
 inline Unit fine(Unit value) {
@@ -168,8 +168,8 @@ DETENT_SHARED inline Ulps times(Factor a, Unit b) { return rounded(product(a, b)
 inline Ulps times_scaled(Factor a, Unit b, int exponent) {
   return rounded_shift(product(a, b), k_unit_frac - exponent);
 }
-/// Conversions between numbers and sums of products, for Units that stand for their value times 2^exponent. Range:
-/// exponent < 30.
+/// Converts a number to a sum of products, and back, if the Units in the products are mantissas times 2^exponent.
+/// Range: exponent < 30.
 inline UlpSum sum_from(Ulps a, int exponent) {
   return static_cast<int64_t>(static_cast<uint64_t>(a) << (k_unit_frac - exponent));
 }
@@ -187,7 +187,7 @@ DETENT_SHARED inline Mantissas rounded(UlpSum x, UlpSum y, UlpSum z) {
 }
 inline constexpr Ulps k_no_ulps = 0;
 
-/// Scales v down to the length `limit` if it is longer. Range: limit >= 0.
+/// Scales v down to the length `limit` if v is longer. Range: limit >= 0.
 DETENT_SHARED inline void clamp_to_circle(Factor (&v)[2], Factor limit) {
   const uint64_t x = magnitude_32(v[0]), y = magnitude_32(v[1]), radius = static_cast<uint32_t>(limit);
   if (x + y <= radius) return;

@@ -4,8 +4,8 @@
 #include "motion/step_settings.h"
 
 /// The relative motion of the two bodies of a contact, and the effect of an impulse between them. The frame is the
-/// contact's (normal n, tangents t and s), at the middle of its points. With r the arm from a body's centre to the
-/// middle, v the velocity and w the angular velocity of the bodies:
+/// contact's (normal n, tangents t and s), at the middle of the contact's points. With r the arm from a body's centre
+/// to this middle, v the velocity and w the angular velocity of a body:
 ///
 ///     linear:  n, t, s . ((v_B + w_B x r_B) - (v_A + w_A x r_A)), m/s
 ///     angular: n, t, s . (w_B - w_A) u, m/s; u is the pair's unit of length, m
@@ -72,7 +72,8 @@ struct One {
   static constexpr bool has_point(const Contact&, uint32_t) { return true; }
 #if DETENT_FIXED
   using Wide = int64_t;
-  // The factor of the points' rows. Mantissas of the coupling have 24 fraction bits, L has 20, inverse pivots 16.
+  // The next functions are for the factor L D L^T of the rows of a contact's points. Mantissas of the coupling have 24
+  // fraction bits, elements of L 20, inverse pivots 16.
   static Factor mantissa(const Contact& contact, uint32_t i, uint32_t k) { return contact.coupling[i][k].raw >> 6; }
   static Wide widened(Factor value) { return int64_t{value} << 20; }
   static Wide wide(Factor a, Factor b) { return int64_t{a} * b; }
@@ -171,9 +172,8 @@ struct PairMotion {
   static typename Kind::Sum cross_part(Factor p, Unit q, Factor r, Unit s) { return product(p, q) - product(r, s); }
 };
 
-/// The parts of the relative motion that determine the normal velocity of the points. Let (x, y) be the coordinates of
-/// a point along the two tangents, relative to the middle. Its normal velocity is: along + about_first y - about_second
-/// x.
+/// The parts of the relative motion that determine the normal velocity of the points. A point at the coordinates (x, y)
+/// along the two tangents, relative to the middle, has the normal velocity along + about_first y - about_second x.
 template <class Kind>
 struct NormalMotion {
   typename Kind::Factor along, about_first, about_second;
@@ -191,9 +191,9 @@ struct NormalMotion {
   }
 };
 
-/// The change of a body's motion by contacts in this substep. In fixed point it is the difference from the value at the
-/// start of the substep, which is exact. In float `kept` is the sum of the changes, because a difference would lose
-/// small impulses at high speeds.
+/// The change of a body's motion by contacts in this substep. `kept`: see kept_at_start(). In fixed point the result is
+/// the difference from the motion before contacts changed it, which is exact. In float `kept` is the sum of the
+/// changes, because a difference would lose small impulses at high speeds.
 inline Vec3<Real> added_by_contacts(const Vec3<Real>& motion, const Vec3<Real>& kept) {
   return DETENT_FIXED ? motion + kept : kept;
 }
@@ -203,8 +203,8 @@ inline Vec3<Real> kept_at_start(const Vec3<Real>& motion, const Vec3<Real>& adde
   return DETENT_FIXED ? -motion : added;
 }
 
-/// Applies a wrench (if `adds`) or its opposite to a body. `share` is the relative inverse mass; `torque` is in the
-/// body's unit of length:
+/// Applies a wrench (if `adds`) or the opposite wrench to a body. `share` is the relative inverse mass of the body;
+/// `torque` is in the body's unit of length:
 ///
 ///     velocity += share force;  momentum += share torque;  angular velocity += share inverse inertia torque
 template <class Kind, bool adds>
@@ -230,8 +230,8 @@ inline void push(const typename Kind::Block& block, const typename Kind::Vector&
   add(body.angular_velocity, block.real(turned, share, inverse_inertia.exponent - k_angular_velocity_power));
 }
 
-/// Applies the wrench of an impulse along the normal at the middle, and of one about each tangent, to B, and its
-/// opposite to A.
+/// Applies a wrench to B, and the opposite wrench to A. The wrench is an impulse along the normal at the middle of the
+/// points, and an angular impulse about each tangent.
 template <class Kind>
 inline void apply_normal(const typename Kind::Contact& contact, typename Kind::Block block, typename Kind::Number along,
                          typename Kind::Number about_first, typename Kind::Number about_second, typename Kind::Body& a,
@@ -255,7 +255,7 @@ inline void apply_normal(const typename Kind::Contact& contact, typename Kind::B
     push<Kind, true>(block, force, torque(contact.moment_b, contact.unit_b), contact.inverse_mass_b, b);
 }
 
-/// Applies a wrench at the middle to B, and its opposite to A.
+/// Applies a wrench at the middle of the points to B, and the opposite wrench to A.
 template <class Kind>
 inline void apply_wrench(const typename Kind::Contact& contact, typename Kind::Block block,
                          const typename Kind::Number (&wrench)[k_parts], typename Kind::Body& a,

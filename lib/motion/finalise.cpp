@@ -37,8 +37,8 @@ uint32_t clamp_speeds(const BodyProperties& properties, const Quat& rotation, Bo
   const bool turned = !is_isotropic(properties);
   Vec3<Real> local, angular_velocity;
   // Joints and impacts may leave an angular velocity beyond the range of Real. If a component in the body's axes is
-  // more than twice the limit, then a component in world axes exceeds the limit. Each pass scales the momentum down to
-  // the limit; if the angular velocity has saturated, this divides the momentum by about 4.
+  // more than twice the limit, then a component in world axes exceeds the limit. Each pass scales the momentum by the
+  // limit over the greatest component. If that component has saturated, the pass divides the momentum by about 4.
   for (int quartering = 0; quartering < k_quarterings_max; ++quartering) {
     local = turned ? rotate_inverse(rotation, motion.angular_momentum) : motion.angular_momentum;
     angular_velocity = local_angular_velocity(properties, local);
@@ -101,7 +101,7 @@ void store_contacts(Span<const ContactWork> work, Span<const ManifoldState> mani
     const uint64_t key_a = key_of(a), key_b = key_of(b);
     return key_a < key_b || (key_a == key_b && a.part < b.part);
   };
-  // The contacts before the first new or removed contact keep their indices.
+  // The awake contacts before the first new or removed one keep their indices.
   uint32_t same = 0;
   for (; same < work.count && same < awake_count; ++same) {
     const ContactState& state = work[same].state;

@@ -47,7 +47,7 @@ Vec3<Real> world_angular_velocity(const BodyProperties& properties, const WorldI
   const bool turns = is_dynamic(properties);
   if (turns) power += inverse_inertia.exponent;
 #if DETENT_FIXED
-  // The limit is rounded down: if it were rounded up, scaling it would overflow.
+  // Rounded down: with a limit that was rounded up, the result of scale_by_power() could overflow.
   const Real limit = Real::from_raw(k_real_max.raw >> (power > 0 ? power : 0));
 #else
   const Real limit = k_real_max;  // exponents are 0 in float

@@ -18,8 +18,8 @@ inline Vec3<Unit> multiply(const WorldInverseInertia& inverse_inertia, const Vec
   return {dot(inverse_inertia.row[0], v), dot(inverse_inertia.row[1], v), dot(inverse_inertia.row[2], v)};
 }
 
-/// A body's angular velocity (angular_velocity.h), m/s, world axes, times 2^power. For a kinematic body, the argument
-/// for the angular momentum is its angular velocity. Overflow: each component is clamped to the range of Real.
+/// A body's angular velocity (angular_velocity.h), m/s, world axes, times 2^power. For a kinematic body, the caller
+/// passes the angular velocity as `angular_momentum`. Overflow: each component is clamped to the range of Real.
 Vec3<Real> world_angular_velocity(const BodyProperties& properties, const WorldInverseInertia& inverse_inertia,
                                   const Vec3<Real>& angular_momentum, int power);
 

@@ -32,7 +32,7 @@ Real start_body(const StepSettings& settings, const BodyProperties& properties, 
   work.axes = matrix_from(pose.rotation);
   work.inverse_inertia = world_inverse_inertia(properties, work.axes);
   work.free_rotation = free_rotation_of(properties);
-  if (!is_non_colliding(properties)) {  // only contacts read these
+  if (!is_non_colliding(properties)) {  // only contacts read the members set here
     work.extent = shape_extent(properties);
     work.fall = fall_speed(settings, work.extent);
     if (!(motion.angular_momentum == none))

@@ -13,21 +13,22 @@ inline namespace DETENT_NAMESPACE {
 Real start_body(const StepSettings& settings, const BodyProperties& properties, const BodyPose& pose,
                 const BodyMotion& motion, BodyWork& work);
 
-/// The speculative distance of a pair, m: the greatest separation of its contact points. It is the contact margin plus
-/// the distance that the pair can close in the tick. `extent`: the smaller body's. `speed`: the sum of both
-/// BodyWork::speed. The distance that the pair can close counts up to a quarter of the extent, or twice the extent if a
-/// body has joints: impacts do not stop jointed bodies (ccd/impact.h).
+/// The speculative distance of a pair, m: contact points are found up to this separation. It is the contact margin plus
+/// the distance by which the bodies can approach each other in the tick. `extent`: BodyWork::extent of the smaller
+/// body, m. `speed`: the sum of both BodyWork::speed, m/s. The approach counts up to a quarter of the extent. If a body
+/// has joints, it counts up to twice the extent, because impacts do not stop jointed bodies (ccd/impact.h).
 inline Real speculative_distance(const StepSettings& settings, Real extent, Real speed, bool jointed) {
   return extent * settings.contact_margin + min(scale_by_power(extent, jointed ? 1 : -2), speed * settings.tick_time);
 }
 
-/// Computes the changes of velocity by gravity, forces and damping in a substep, for each of `bodies`. Clears the
-/// pending forces.
+/// Computes the changes of velocity and angular momentum by gravity, forces, torques and damping in a substep, for each
+/// of `bodies`. Clears the pending forces and torques.
 void predict(const StepSettings& settings, Span<const BodyProperties> properties, Span<const uint32_t> bodies,
              Span<BodyMotion> motions, Span<BodyWork> work);
 
 /// Starts the tick of bodies. Computes bounds that contain each body on its predicted motion in this tick, enlarged by
-/// WorldDef::contact_margin times bounds_extent(). A non-colliding body gets empty bounds, a half-space unbounded ones.
+/// WorldDef::contact_margin times bounds_extent(). A non-colliding body gets empty bounds, a half-space unbounded
+/// bounds.
 void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyProperties> properties,
            Span<const BodyMotion> motions, Span<const uint32_t> bodies, Span<BodyWork> work, Span<Bounds> bounds);
 

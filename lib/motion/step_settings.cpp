@@ -9,10 +9,10 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Fractions of WorldDef::damping_ratio, for contacts between dynamic bodies, and for all other contacts.
+/// Factors of WorldDef::damping_ratio: for contacts between dynamic bodies, and for all other contacts.
 constexpr Unit k_dynamic_damping = 0.7, k_static_damping = 0.5;
 
-constexpr Real k_contact_softness_max = 15.0;  ///< a softer contact is a little stiffer than it is set
+constexpr Real k_contact_softness_max = 15.0;  ///< softer contacts become stiffer than their settings
 
 /// Computes a Softness. `contact_frequency`: frequency of the spring / substep rate. `damping_ratio`: 1 is critical.
 Softness softness(Real contact_frequency, Real damping_ratio) {

@@ -9,37 +9,39 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Softness of a contact, which is a damped spring, solved implicitly. The members do not depend on the length of the
-/// substep, because the frequency is a fraction of the substep rate.
+/// Softness of a contact. A contact is a damped spring, solved implicitly. Its frequency is a fraction of the substep
+/// rate, so the members do not depend on the length of the substep. In islands with joints they do
+/// (k_jointed_stiffness).
 /// Source: Catto, "Soft Constraints", GDC 2011.
 struct Softness {
   Unit rate;           ///< fraction of the overlap that is corrected in a substep
-  Unit spring_eighth;  ///< an eighth of the softness of a row over its response
+  Unit spring_eighth;  ///< softness of a row / (8 x response K of the row)
 };
 
 /// The world's settings in the form that the stages use, derived once per step.
 struct StepSettings {
-  uint32_t substeps_fixed;  ///< 0: the number is chosen for each island
+  uint32_t substeps_fixed;  ///< 0: the step chooses the number for each island
   uint32_t substeps_max;
-  /// (substeps / w)^2, s^2, with w the angular frequency, rad/s, of contacts between dynamic bodies.
+  /// (number of substeps / w)^2, s^2. w: angular frequency, rad/s, of contacts between dynamic bodies, proportional to
+  /// the number of substeps.
   Scaled substeps_per_rate;
-  Scaled resting_penetration;  ///< depth to which a contact at rest may sink, over the smaller extent
+  Scaled resting_penetration;  ///< depth to which a contact at rest may sink / extent of the smaller body
   uint32_t iterations;
   uint32_t convergence;
   bool post_stabilises;
   bool sleeping;
   bool continuous;  ///< continuous collision is on
-  /// The most contacts that are solved at once (World::lanes): 1, 4 or 8. It does not change the result.
+  /// The most contacts that are solved at once (World::lanes): 1, 4 or 8. The results do not depend on this.
   uint32_t lanes;
 #if DETENT_TASKS
-  Team* team;  ///< the threads that share loops; null: none. This does not change the result.
+  Team* team;  ///< the threads that share loops; null: none. The results do not depend on this.
 #else
   static constexpr Team* team = nullptr;
 #endif
   Real tick_time;          ///< s
   Real contact_frequency;  ///< of WorldDef
   Real damping_ratio;      ///< of WorldDef
-  uint32_t substeps;       ///< this and the members down to static_softness are set by set_substeps()
+  uint32_t substeps;       ///< set_substeps() sets the members from here to static_softness
   bool jointed;            ///< the island has joints
   Real time;               ///< length of a substep, s
   Scaled rate;             ///< substeps per second
@@ -56,21 +58,21 @@ struct StepSettings {
   Real gravity_size;
   Real restitution_threshold;
   ManifoldReduction reduction;
-  /// Approximate depth, m, to which a resting body sinks into its support: a quarter of the displacement by gravity in
-  /// a tick.
+  /// Approximate depth, m, to which a resting body sinks into its support: gravity_size x tick_time^2 / 4.
   Real sunk;
-  /// Contact margin, as a fraction of the smaller extent.
+  /// Contact margin, as a fraction of the smaller body's extent.
   Real contact_margin;
-  /// Greatest motion at which a manifold is recycled, as a fraction of the smaller extent; 0: contact points are found
-  /// anew in each tick.
+  /// Greatest motion at which a manifold is recycled, as a fraction of the smaller body's extent; 0: contact points
+  /// are found anew in each tick.
   Real contact_recycle_distance;
 };
 
-/// Contacts of an island with joints are as stiff as this number of substeps would make them.
+/// Contacts of an island with joints are at least as stiff as contacts of an island without joints that takes this
+/// number of substeps.
 inline constexpr uint32_t k_jointed_stiffness = 24;
 
 StepSettings step_settings(const WorldState& world);
-/// The same settings, for loops that `team` shares.
+/// Returns the settings with the given `team`.
 #if DETENT_TASKS
 inline StepSettings shared_settings(const StepSettings& settings, Team* team) {
   StepSettings shared = settings;
@@ -85,10 +87,11 @@ inline Real speed_over(const StepSettings& settings, Real length) {
   return scale_by_power(clamp(length, -settings.gap_max, settings.gap_max) * settings.rate_mantissa,
                         settings.rate_exponent);
 }
-/// sqrt(g extent), m/s, with g at least 1 m/s^2: the speed after a fall from rest by half of `extent`, m. Limits of speeds
-/// are multiples of it. Range: extent <= 2^15 m.
+/// sqrt(g extent), m/s, with g at least 1 m/s^2: the speed after a fall from rest by half of `extent`, m. The limits of
+/// speed in the solver are multiples of this speed. Range: extent <= 2^15 m.
 Real fall_speed(const StepSettings& settings, Real extent);
-/// Sets the settings that depend on the number of substeps, and on whether the island has joints. Range: [1, 64].
+/// Sets the settings that depend on the number of substeps, and on whether the island has joints. Range of `substeps`:
+/// 1 to 64.
 void set_substeps(uint32_t substeps, bool jointed, StepSettings& settings);
 /// Converts a count, clamped to 2^17 - 1, to a Scaled.
 Scaled scaled_from_count(uint32_t count);

@@ -5,15 +5,15 @@
 #include "state/fields.h"
 
 /// Three operations on a list of fields. A type lists its fields once, in a function `visit(archive, value)`. The class
-/// of the archive determines the operation: Writer writes the fields as canonical bytes, Reader reads them from
-/// canonical bytes, and Normaliser changes values to a form that can be written.
+/// of the archive determines the operation: Writer writes the fields as canonical bytes, Reader reads the fields from
+/// canonical bytes, and Normaliser changes values to the form that Writer can write.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// The base class of all archives. The field lists are compiled once, for this type, which keeps the code small.
 class Archive {
  public:
-  /// The operations of an archive; a null function does nothing.
+  /// The operations of an archive. Where a pointer is null, the operation does nothing.
   struct Operations {
     void (*bits)(Archive& archive, const char* name, uint64_t& value, uint32_t byte_count);
     void (*require)(Archive& archive, const char* name, bool condition, Status otherwise);
@@ -24,14 +24,14 @@ class Archive {
   void bits(const char* name, uint64_t& value, uint32_t byte_count) {
     if (operations_.bits != nullptr) operations_.bits(*this, name, value, byte_count);
   }
-  /// States a condition that the field just visited must satisfy. If it is false, Reader records the field as failed,
-  /// and Normaliser records the status `otherwise`; Writer ignores it.
+  /// States a condition that the field just visited must satisfy. If the condition is false, Reader records the field
+  /// as failed, and Normaliser records the status `otherwise`. Writer ignores the condition.
   void require(const char* name, bool condition, Status otherwise) {
     if (operations_.require != nullptr) operations_.require(*this, name, condition, otherwise);
   }
   bool normalises() const { return operations_.normalises; }
 
-  WordKind kind = WordKind::unsigned_integer;  ///< kind of the next bits, for programs that display them
+  WordKind kind = WordKind::unsigned_integer;  ///< kind of the next field, for programs that display fields
 
  protected:
   explicit Archive(const Operations& operations) : operations_(operations) {}
@@ -63,7 +63,7 @@ class Reader final : public Archive {
   uint32_t count;
   uint32_t at;
   const char* failed = nullptr;  ///< the first field that is missing or wrong
-  uint32_t failed_at = 0;        ///< the index of its first byte
+  uint32_t failed_at = 0;        ///< the index of the first byte of this field
   uint32_t field_at = 0;
 
  private:
@@ -76,7 +76,7 @@ class Normaliser final : public Archive {
  public:
   Normaliser() : Archive(k_operations) {}
 
-  Status status = Status::ok;  ///< of the first field that cannot be written
+  Status status = Status::ok;  ///< the reason why the first bad field cannot be written
 
  private:
   static void check(Archive& archive, const char* name, bool condition, Status otherwise);
@@ -86,14 +86,14 @@ class Normaliser final : public Archive {
 void visit_word(Archive& archive, const char* name, uint32_t& value);
 /// Visits a flag as one byte, 0 or 1.
 void visit_flag(Archive& archive, const char* name, bool& value);
-/// Visits a number as one byte. Its value must be from `first` to `last`.
+/// Visits a number as one byte. The number must be from `first` to `last`.
 void visit_byte(Archive& archive, const char* name, uint32_t& value, uint32_t first, uint32_t last);
 /// Visits a signed integer in two's complement, as bits of the current Archive::kind. Afterwards the kind is
 /// unsigned_integer again.
 void visit_bits(Archive& archive, const char* name, int32_t& value);
 void visit_bits(Archive& archive, const char* name, int64_t& value);
 
-/// Visits an enumeration value as one byte. It must be from `first` to `last`.
+/// Visits an enumeration value as one byte. The value must be from `first` to `last`.
 template <class Enum>
 void visit_choice(Archive& archive, const char* name, Enum& value, Enum first, Enum last) {
   uint32_t number = static_cast<uint32_t>(value);
@@ -109,11 +109,11 @@ void visit_number(Archive& archive, const char* name, Fixed<Int, frac>& value) {
 }
 /// Visits a float as its IEEE bits. The code uses only integer arithmetic, so the caller's floating-point modes do not
 /// matter. Negative zero, infinities and NaN are rejected, because machines differ in the sign of zeros and the bits of
-/// NaN. The Normaliser replaces negative zero by zero.
+/// NaN. Normaliser does not reject negative zero, but replaces it by zero.
 void visit_number(Archive& archive, const char* name, float& value);
 void visit_number(Archive& archive, const char* name, double& value);
 #if DETENT_FIXED
-/// Visits the mantissa and the exponent, which must have the canonical form of numbers.h.
+/// Visits the mantissa and the exponent of a Scaled. The Scaled must have the canonical form of numbers.h.
 void visit_number(Archive& archive, const char* name, Scaled& value);
 #endif
 template <class T>

@@ -5,12 +5,13 @@
 
 #include "replay/archive.h"
 
-/// Every mutating call as a value. Each command lists its fields once (`visit`), for writing and for reading, and has a
-/// function that makes the call (`apply`).
+/// Every mutating call as a value, a command. Each command lists its fields once (`visit`), for writing and for
+/// reading, and has a function that makes the call (`apply`).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The first byte of a record. Stored in files: a value is never reused.
+/// The first byte of a record. The values are stored in files, so a value that is no longer used is never given to
+/// another tag.
 enum class RecordTag : uint8_t {
   create_body = 1,
   destroy_body = 2,
@@ -25,7 +26,7 @@ enum class RecordTag : uint8_t {
   set_user_data = 11,
   bind_asset = 12,
   tick = 13,           ///< a step
-  tick_digested = 14,  ///< a step, and the digest after it
+  tick_digested = 14,  ///< a step, and the digest of the state after it
   wake_body = 15,
   sleep_body = 16,
   set_type = 32,
@@ -44,7 +45,7 @@ enum class RecordTag : uint8_t {
   move_kinematic = 45,
   set_sensor = 46,
   set_filter = 48,
-  query = 49,  ///< the length, then a query and the digest of its answer (query_command.h)
+  query = 49,  ///< the length of the rest, a query, and the digest of its answer (query_command.h)
   set_inertia = 50,
   create_joint = 64,
   destroy_joint = 65,
@@ -223,7 +224,7 @@ inline void visit(Archive& archive, BodyDef& def) {
   visit_flag(archive, "sensor", def.sensor);
 }
 
-/// All settings except the capacity, which is in the header of the recording.
+/// Visits all settings except the capacity, which is in the header of the recording.
 inline void visit(Archive& archive, WorldDef& def) {
   visit_number(archive, "gravity", def.gravity);
   visit_number(archive, "tick", def.tick);

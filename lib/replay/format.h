@@ -9,16 +9,16 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 constexpr uint32_t k_magic_bytes = 8;
-/// Contains a byte above 127, both kinds of line end and an end-of-file mark, so that a transfer in text mode already
-/// damages the first eight bytes.
+/// The first eight bytes of a recording. They contain a byte above 127, both kinds of line end and an end-of-file mark,
+/// so that a transfer in text mode damages them.
 inline constexpr uint8_t k_recording_magic[k_magic_bytes] = {0x89, 'D', 'T', 'R', '\r', '\n', 0x1a, '\n'};
 
-constexpr uint32_t k_version_bytes = 4;  ///< the format version: it always follows the magic
+constexpr uint32_t k_version_bytes = 4;  ///< the format version; in every version it follows the magic
 constexpr uint32_t k_info_bytes = 60;    ///< the header's fields
 constexpr uint32_t k_checksum_bytes = 4;
 constexpr uint32_t k_header_bytes = k_magic_bytes + k_info_bytes + k_checksum_bytes;
 
-/// Offsets of the header fields that can be refused after the checksum test.
+/// Offsets, bytes, of the header fields that a reader can refuse although the checksum is correct.
 constexpr uint32_t k_simulation_at = 12;
 constexpr uint32_t k_config_at = 16;
 constexpr uint32_t k_capacity_at = 20;
@@ -28,16 +28,18 @@ constexpr uint32_t k_chunk_header_bytes = 16;
 constexpr uint32_t k_chunk_payload_bytes_max = 512;
 static_assert(k_chunk_header_bytes + k_chunk_payload_bytes_max + k_checksum_bytes <= k_recording_buffer_bytes);
 
-/// Stored in files: a value is never reused.
+/// The type of a chunk. The values are stored in files, so a value that is no longer used is never given to another
+/// type.
 enum class ChunkType : uint32_t {
-  seed = 1,   ///< a piece of the snapshot, in order
+  seed = 1,   ///< a piece of the first state's snapshot; the pieces are in order
   calls = 2,  ///< whole records
   end = 3,
-  keyframe = 0x8001,  ///< the digest of the state, then a piece of its snapshot, in order
+  keyframe = 0x8001,  ///< a piece of a later state's digest and snapshot; the pieces are in order
   stages = 0x8002,    ///< a piece of a tick's trace at TraceLevel::stages (trace_stream.h), before the tick's record
-  state = 0x8003,     ///< the same at TraceLevel::full
+  state = 0x8003,     ///< as `stages`, at TraceLevel::full
 };
-/// A reader skips a chunk of unknown type with this bit, and refuses one without it.
+/// A reader skips a chunk of an unknown type that has this bit, and refuses a chunk of an unknown type without this
+/// bit.
 constexpr uint32_t k_chunk_optional = 0x8000;
 
 struct ChunkHeader {
@@ -99,7 +101,7 @@ constexpr uint32_t k_keyframe_digest_bytes = 8;  ///< the digest before the snap
 /// Whether an action that is done every `interval` ticks is due after this tick; false for interval 0.
 constexpr bool is_due(uint32_t interval, uint64_t tick) { return interval != 0 && tick % interval == 0; }
 
-/// These read and write the CRC-32 at `bytes`.
+/// read_checksum() and write_checksum() read and write the CRC-32 at `bytes`.
 inline uint32_t read_checksum(const uint8_t* bytes) {
   uint32_t checksum = 0;
   Reader reader{bytes, k_checksum_bytes};

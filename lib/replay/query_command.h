@@ -4,12 +4,13 @@
 
 #include "replay/command.h"
 
-/// Every query of query.h as a value, like the calls of command.h. The record of a query begins with its length, so
-/// that a reader that does not repeat queries can skip the record.
+/// Every query of query.h as a value, like the calls of command.h. After the tag, the record of a query begins with the
+/// length of the rest, so that a reader that does not repeat queries can skip the record.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The first byte after the length. Stored in files: a value is never reused.
+/// The first byte after the length. The values are stored in files, so a value that is no longer used is never given to
+/// another kind.
 enum class QueryKind : uint8_t {
   ray = 1,
   cast = 2,
@@ -39,7 +40,7 @@ inline void visit(Archive& archive, QueryFilter& filter) {
   visit(archive, filter.ignore);
 }
 
-/// The last fields of all queries.
+/// Visits the last fields of every query.
 template <class Query>
 void visit_choice_of_bodies(Archive& archive, Query& query) {
   visit(archive, query.filter);
@@ -85,7 +86,7 @@ struct QueryCode {
   void (*visit)(Archive& archive, void* command);
   /// Runs the query and sets the command's digest.
   Status (*ask)(const World& world, void* command, QueryHits hits, QueryReport& report);
-  uint32_t digest_at;  ///< bytes from the command's start
+  uint32_t digest_at;  ///< offset of the digest in the command, bytes
 };
 template <class Command>
 inline constexpr QueryCode k_query_code = {Command::k_kind,
@@ -113,10 +114,11 @@ void visit(Archive& archive, QueryCommand<kind, Query, call>& command) {
   visit_query(archive, k_query_code<QueryCommand<kind, Query, call>>, &command);
 }
 
-/// The entry point of the code that repeats queries, for a player. The code is linked only if a program uses it.
+/// The entry point of the code that repeats queries, for a player. The code is linked only if a program uses this entry
+/// point.
 struct QueryRepeater {
-  /// Reads a query, beginning with its kind, runs it, and returns the digests of the recorded and the new answer. If
-  /// the query cannot be read, `reader` holds the error.
+  /// Reads a query, beginning with its kind, and runs the query. Sets `recorded` and `replayed` to the digests of the
+  /// recorded and the new answer. If the query cannot be read, `reader` holds the error.
   Status (*repeat)(const World& world, Reader& reader, uint64_t& recorded, uint64_t& replayed);
 };
 

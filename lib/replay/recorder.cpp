@@ -12,7 +12,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The functions of a record that is no call: a tick or a query. `apply` is null.
+/// The CommandCode of a record that is not a call: a tick or a query. `apply` is null.
 template <class Record>
 constexpr CommandCode k_record_code = {
     Record::k_tag, [](Archive& archive, void* record) { visit(archive, *static_cast<Record*>(record)); }, nullptr};
@@ -26,7 +26,8 @@ void visit(Archive& archive, LoggedQuery& query) { visit_query(archive, query.co
 
 }  // namespace
 
-// A record has a tag and at most as many further bytes as its command has in memory. It always fits an empty chunk.
+// A record has a tag and at most as many further bytes as its command has in memory; the record of a query also has a
+// length and a kind. Therefore every record fits an empty chunk.
 static_assert(sizeof(CreateBody) + 1 <= k_chunk_payload_bytes_max);
 static_assert(sizeof(SetJoint) + 1 <= k_chunk_payload_bytes_max);
 static_assert(sizeof(CastCommand) + 4 <= k_chunk_payload_bytes_max);
@@ -86,7 +87,8 @@ void Recorder::write_header() {
   write(buffer_, k_header_bytes);
 }
 
-/// Writes the world's snapshot, after `payload_count` payload bytes that the buffer already holds.
+/// Writes the world's snapshot in chunks. `payload_count`: number of bytes that the payload of the first chunk already
+/// has in the buffer.
 void Recorder::write_state(uint32_t type, uint32_t payload_count) {
   const uint32_t state_bytes = snapshot_bytes(get_info(world_).capacity);
   for (uint32_t offset = 0; offset < state_bytes && status_ == Status::ok; payload_count = 0) {
@@ -374,8 +376,8 @@ StepReport Recorder::step() {
   const bool digested = is_due(def_.digest_interval, report.tick);
   const bool keyframe = is_due(def_.keyframe_interval, report.tick);
   TickDigested command{digested || keyframe ? digest(world_) : 0};
-  // The record is logged before tick_ increases: a chunk that starts with this record has the tick number before this
-  // tick.
+  // The record is logged before tick_ increases: a chunk that starts with this record has the number of ticks that were
+  // completed before this tick.
   if (digested) {
     log(k_record_code<TickDigested>, &command);
   } else {

@@ -17,13 +17,14 @@ Status Player::seek(const Place& place) {
 
 /// Searches for the last keyframe at or before the tick, from `place` on. If there is one, sets `place` to it and
 /// `found` to true. If the search reaches the end chunk, sets `beyond` to whether the recording ends before the tick;
-/// otherwise leaves `beyond` as it is. Reads only chunk headers: checksums are tested when a chunk is read later. A
-/// header that cannot be valid ends the search, as the end of the bytes does. A keyframe counts only if a chunk of another type follows, which shows that it is complete.
+/// otherwise leaves `beyond` as it is. The search reads only chunk headers: the player tests a checksum when it reads
+/// the chunk later. The search ends at a header that cannot be valid, or at the end of the bytes. A keyframe counts
+/// only if a chunk of another type follows, which shows that the keyframe is complete.
 Status Player::find_keyframe(Place& place, uint64_t tick, bool& found, bool& beyond) {
   Place at = place, candidate = {};
   bool within = false;
   for (;;) {
-    // The header is not read into the buffer, which may hold a chunk in use.
+    // The header is not read into `buffer_`, because `buffer_` may hold a chunk in use.
     uint8_t bytes[k_chunk_header_bytes];
     uint32_t got = 0;
     if (source_.seek(source_.context, at.offset) != Status::ok ||

@@ -22,8 +22,9 @@ bool are_same(Span<const T> a, Span<const T> b, uint32_t index) {
 
 uint32_t greater_count(uint32_t a, uint32_t b) { return a < b ? b : a; }
 
-/// Merges the elements of `from` that `takes` accepts, `more` of them, into the sorted elements at the front of `to`.
-/// `precedes(a, b)`: the order. `move(i, k)`: moves element i of `to` to k. `put(i, k)`: copies element i of `from`.
+/// Merges the elements of `from` that `takes` accepts into the `count` sorted elements at the front of `to`. `more`:
+/// the number of elements that `takes` accepts. `precedes(a, b)`: the order. `move(i, k)`: moves element i of `to` to
+/// place k. `put(i, k)`: copies element i of `from` to place k of `to`.
 template <class T, class From, class Takes, class Precedes, class Move, class Put>
 void merge_back(Span<T> to, uint32_t count, Span<From> from, uint32_t more, const Takes& takes,
                 const Precedes& precedes, const Move& move, const Put& put) {
@@ -49,8 +50,8 @@ uint32_t count_taken(Span<T> from, const Takes& takes) {
   return count;
 }
 
-/// Merges recorded events into the caller's buffer. `count`: of the events in it, and afterwards of all. Returns false
-/// if they do not fit.
+/// Merges the recorded events that `takes` accepts into the caller's buffer. `count`: the number of events in the
+/// buffer, which the function updates. Returns false if the events do not fit.
 template <class Event, class Buffer, class Takes, class Precedes>
 bool merge_recorded(const Buffer& buffer, uint32_t& count, Span<Event> recorded, const Takes& takes,
                     const Precedes& precedes) {
@@ -101,7 +102,7 @@ void SparseTick::load(const State& from, const StateView<uint8_t>& block) {
       block.joints[slot] = joint;
       continue;
     }
-    block.joints[slot].type = 0;  // the step does not see it
+    block.joints[slot].type = 0;  // hides the joint from the step
     if (holds(joint) && (anchors(joint.body_a, joint.body_b) || anchors(joint.body_b, joint.body_a)))
       anchoring.set(slot);
   }
@@ -114,7 +115,7 @@ void SparseTick::load(const State& from, const StateView<uint8_t>& block) {
 }
 
 void SparseTick::reset(const StateView<uint8_t>& block) const {
-  // The counts tell which elements may be other than zero.
+  // The counts tell copy_used() which elements of the block may be other than zero.
   block.world.slots_used = used;
   block.world.joints_used = greater_count(before.world.joints_used, now.world.joints_used);
   block.world.contact_count =
@@ -138,7 +139,7 @@ bool SparseTick::has_same_units(Span<const JointBody> bodies) const {
   for (const JointBody& body : bodies) {
     if (body.mobile != 0) continue;
     const uint32_t before_unit = units[body.slot];
-    // If a body without joints is fixed, its first joint concerns no other.
+    // A body had no joints before if before_unit is 0. If it is fixed, its first joint affects no other joint.
     same = same && (before_unit == unit_number(body) || (before_unit == 0 && !is_kinematic(body.slot)));
     kinematic += is_kinematic(body.slot) ? 1u : 0u;
   }
@@ -197,7 +198,7 @@ bool SparseTick::merge(const StateView<uint8_t>& block) {
         if (has_manifolds) block.manifolds[k] = after.manifolds[i];
       });
 
-  // Visible bodies that are not inside may be within visible sensors.
+  // Removes pairs of a visible body and a visible sensor that both are not inside.
   uint32_t sensed = 0;
   for (uint32_t i = 0; i < block.world.sensed_count; ++i) {
     const SensedState pair = block.sensed[i];
@@ -241,7 +242,7 @@ bool SparseTick::merge_events(const WorldHooks& hooks, StepReport& report) const
   const auto is_before = [](uint32_t a, uint32_t b, uint32_t other_a, uint32_t other_b) {
     return a != other_a ? a < other_a : b < other_b;
   };
-  // Visible bodies that are not inside may have entered visible sensors.
+  // Removes events of a visible body and a visible sensor that both are not inside.
   const Span<SensorEvent> sensed = room_of(hooks.sensor_events);
   uint32_t kept = 0;
   for (uint32_t i = 0; i < events.sensor; ++i) {

@@ -28,8 +28,8 @@ bool has_same_settings(const WorldState& a, const WorldState& b) {
   return have_same_bytes(a, other);
 }
 
-/// Visits the elements of two sorted lists: those with the same key together, the others alone. `visit(i, k)`: an index
-/// is the list's count if the list has no such element.
+/// Visits the elements of two sorted lists, in order. Calls visit(i, k) with the indices of an element in both lists.
+/// An index is the count of its list if that list has no element with this key.
 template <class Before, class Visit>
 void walk_both(uint32_t count_a, uint32_t count_b, const Before& compare, const Visit& visit) {
   for (uint32_t i = 0, k = 0; i < count_a || k < count_b;) {
@@ -132,7 +132,7 @@ void SparseTick::add(uint32_t slot) {
   if (is_different || record.movers.has(slot)) list[count++] = slot;
 }
 
-/// Whether one of the bodies of a part of the list reaches the body.
+/// Whether one of the bodies in `list`, from index `from` to before `end`, reaches the body `slot`.
 bool SparseTick::meets(uint32_t slot, uint32_t from, uint32_t end) const {
   const bool acts = can_act(slot);
   for (uint32_t i = from; i < end; ++i) {
@@ -197,7 +197,7 @@ bool SparseTick::expand() {
 void SparseTick::note_reach(BitSet active) {
   const uint32_t listed = count;
   for (uint32_t i = 0; i < listed; ++i) include(reach[list[i]], boxes[list[i]]);
-  // Bodies that rest in the record, and move in this run.
+  // Adds the bodies that rest in the record but are active in this run to `list`.
   inside.for_each([&](uint32_t slot) {
     if (!active.has(slot) || differs.has(slot) || record.movers.has(slot)) return;
     for (uint32_t i = listed; i-- > 0;) {

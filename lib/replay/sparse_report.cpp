@@ -9,7 +9,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Replaces, in the recorded count of a whole step, the part of the bodies inside.
+/// Replaces the part of the bodies inside in a count of a whole step.
 template <class Count>
 void replace(const Count& base, const Count& made, Count& total) {
   total = static_cast<Count>(total - base + made);

@@ -1,26 +1,29 @@
 #pragma once
 #include "replay/sparse_tick.h"
 
-/// The report of a step that is made in part.
+/// The report of a step in which only some bodies are simulated.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Whether the step lost nothing. The pools and buffers are then as if each island had its own.
+/// Whether the step dropped nothing for lack of room. Then the results are the same as if each island had pools and
+/// buffers of its own.
 bool is_whole(const StepReport& report);
 
-/// TickHead::buffers.
+/// Returns the value of TickHead::buffers.
 uint32_t buffers_of(const WorldHooks& hooks);
 
-/// Replaces, in each count of `total` that is a sum over islands, pairs or bodies, the part `base` by `made`.
+/// In each count of `total` that is a sum over islands, pairs or bodies, replaces the part of the bodies inside:
+/// subtracts `base`, the report of their run from the recorded state, and adds `made`, the report of their run from the
+/// present state.
 void replace_sums(const StepReport& base, const StepReport& made, StepReport& total);
 
-/// The same for what a step used of the pools.
+/// As replace_sums(), for what a step used of the pools.
 void replace_use(const StepProbe& base, const StepProbe& made, TickHead& total);
 
-/// Whether a whole step of these counts has room in every pool, and does not spend the work of impacts.
+/// Whether a whole step with these counts would have room in every pool, and would not use up the budget of impacts.
 bool has_room(const TickHead& total, Capacity capacity);
 
-/// The largest number of substeps of any island: of those inside, `most`, and of the others.
+/// The largest number of substeps of any island. `most`: the largest number of the islands inside.
 uint32_t most_substeps(const SparseTick& tick, uint32_t most);
 
 }  // namespace DETENT_NAMESPACE

@@ -19,10 +19,11 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr uint32_t k_runs_max = 3;
-/// A tick is made again in part if at most this fraction of the moving bodies is simulated. These are simulated twice.
+/// A tick is repeated in part only if the bodies to simulate are at most 1 / k_share_divisor of the bodies that moved
+/// in it. The bodies to simulate are simulated twice: from the recorded state and from the present state.
 constexpr uint32_t k_share_divisor = 3;
 
-/// Whether two states have the same used elements.
+/// Whether the used elements of two states are equal.
 bool is_same_state(const StateView<const uint8_t>& a, const StateView<const uint8_t>& b) {
   const UsedCounts counts = used_counts(a), others = used_counts(b);
   const auto* bytes_a = reinterpret_cast<const uint8_t*>(&a.header);
@@ -66,7 +67,7 @@ SparseRollback* SparseRollback::begin(uint8_t* memory, const World& world, uint3
   made.memory_ = memory;
   made.images_ = memory + made.layout_.images;
   memset(made.images_, 0, static_cast<uint32_t>(made.layout_.bytes) - made.layout_.images);
-  // The images of the starts of ticks come first, then those of the records and the spare one.
+  // The images of the starts of ticks come first, then the images of the records, then the spare image.
   for (uint32_t i = 0; i < 2 * window + 2; ++i)
     *at_offset<BlockHeader>(made.images_ + i * made.layout_.image_bytes, 0) = state.header;
   made.spare_ = 2 * window + 1;
@@ -97,7 +98,7 @@ Status SparseRollback::keep(const World& world) {
   const StateView<uint8_t> kept = image(start_image(tick));
   if (is_same_state(state, read_only(kept))) return Status::ok;
   copy_used(state, kept);
-  // The world was changed after the step of the tick before, so the state just after that step is lost.
+  // The world was changed after the step of the previous tick, so the state just after that step is lost.
   if (tick == 0) return Status::ok;
   TickHead& last = record_of(tick - 1).head;
   if (last.tick == tick - 1) last.usable = 0;
@@ -137,7 +138,7 @@ void SparseRollback::end_tick(World& world) {
 StepReport SparseRollback::make_step(void* context, World& world) {
   SparseRollback& self = *static_cast<SparseRollback*>(context);
   if (world.block == self.block_) return self.step(world);
-  // The game has copied the handle, for another world or for a step outside of the session.
+  // The game has copied the world's handle with this observer, for another world or for a step outside of the session.
   World other = world;
   other.hooks.observer = self.theirs_;
   StepProbe probe;
@@ -187,7 +188,7 @@ StepReport SparseRollback::step(World& world) {
   return report;
 }
 
-/// Copies the events of the step to the record. Without room for them, the record cannot be used.
+/// Copies the events of the step to the record. If there is no room for them, the record becomes unusable.
 void SparseRollback::record_events(const World& world, const StepReport& report, const TickRecord& record) const {
   const auto copy = [&](const auto& buffer, uint32_t count, const auto& to, uint32_t& kept) {
     if (count > to.count) record.head.usable = 0;
@@ -200,7 +201,7 @@ void SparseRollback::record_events(const World& world, const StepReport& report,
   copy(world.hooks.body_events, report.events.body, record.body_events, record.head.event[3]);
 }
 
-/// The bounds of all bodies, of which none moves.
+/// Computes the bounds of all bodies, for a step in which no body moves.
 void SparseRollback::reach_at_rest(World& world, Span<Bounds> reach) const {
   const StateView<uint8_t> state = view_of(world);
   const Scratch scratch = scratch_of(world.block, state.layout, capacity_);
@@ -233,16 +234,17 @@ StepReport SparseRollback::step_whole(World& world, const TickRecord& record) {
   head.impacts = probe.use;
   head.joint_couplings = probe.joint_couplings;
   head.joint_numbers = probe.joint_numbers;
-  // Without continuous collision, a body may leave its bounds, and sensors would still find it. The events tell how
-  // many bodies passed through sensors, which takes room in the pool.
+  // Sensors require two things. Continuous collision: without it, a body may leave its bounds, and sensors would still
+  // find the body. A buffer of sensor events: the events tell how many bodies passed through sensors, which takes room
+  // in the pool of sensed pairs.
   const bool is_bounded =
       state.world.sensor_count == 0 || (state.world.continuous != 0 && room_of(world.hooks.sensor_events).count != 0);
   head.usable = (is_idle || noted_) && is_whole(report) && is_bounded && !probe.use.is_spent() ? 1 : 0;
   return report;
 }
 
-/// Makes a step of the bodies inside, from the given state. Returns false if pools or budgets would couple them to
-/// other bodies.
+/// Simulates a step of the bodies inside, from the given state. Returns false if the step used up a pool or a budget,
+/// or if continuous collision stopped a body: then other bodies could change the result.
 bool SparseRollback::run(World& world, SparseTick& tick, const StateView<const uint8_t>& from, const WorldHooks& hooks,
                          StepProbe& probe, StepReport& report) {
   tick.load(from, view_of(world));
@@ -265,7 +267,8 @@ bool SparseRollback::run(World& world, SparseTick& tick, const StateView<const u
   return is_whole(report) && !probe.use.is_spent() && report.ccd.bodies_stopped == 0;
 }
 
-/// If the record was made by a run of the same bodies, that run need not be made again.
+/// If the record already has the result of a run of the same bodies from the recorded state, takes that result and
+/// returns true.
 bool SparseRollback::take_known_part(const SparseTick& tick, StepReport& base) {
   const TickRecord& record = tick.record;
   const TickHead& head = record.head;
@@ -280,7 +283,8 @@ bool SparseRollback::take_known_part(const SparseTick& tick, StepReport& base) {
   return true;
 }
 
-/// Keeps the run of the bodies inside for the next time. The units of bodies that joints only hold on to are not kept.
+/// Keeps the result of the run of the bodies inside, for take_known_part(). The result cannot be used again if joints
+/// hold on to a body that they do not move, because the unit of such a body is not kept.
 void SparseRollback::keep_part(const SparseTick& tick, const StepReport& made, TickHead& head) const {
   head.part_known = 1;
   for (const JointBody& body : made_probe_.joint_bodies) {
@@ -294,7 +298,8 @@ void SparseRollback::keep_part(const SparseTick& tick, const StepReport& made, T
   memcpy(tick.record.part_visible.words.data, tick.visible.words.data, tick.visible.words.count * sizeof(uint32_t));
 }
 
-/// Simulates the bodies inside, from the recorded state and from the present one, until they reach no others.
+/// Simulates the bodies inside, from the recorded state and from the present state. Repeats this with more bodies until
+/// the bodies inside reach no others. Returns false if the tick cannot be repeated in part.
 bool SparseRollback::simulate(World& world, SparseTick& tick, StepReport& base, StepReport& made) {
   const StateView<uint8_t> state = view_of(world);
   if (!tick.expand()) return false;
@@ -365,7 +370,7 @@ bool SparseRollback::step_sparse(World& world, const TickRecord& record, StepRep
     total.report.events = made.events;
     total.report.bodies = now.world.body_count;
     total.report.substeps_max = most_substeps(tick, made.substeps_max);
-    // The buffers of events are the caller's: if this fails, the whole step writes them again.
+    // This writes to the caller's buffers of events. If it fails, the whole step that follows overwrites them.
     is_exact = has_room(total, capacity_) && tick.merge_events(world.hooks, total.report) && tick.merge(state) &&
                state.world.sensed_count + total.report.events.sensor <= capacity_.sensed;
   }

@@ -7,31 +7,33 @@
 #include "replay/sparse_tick.h"
 #include "state/view.h"
 
-/// Sparse rollback: a tick that is made again simulates only the bodies that the changed inputs reach. All other bodies
-/// take the states that were recorded when the tick was made before. See docs/design/rollback.md.
+/// Sparse rollback: when a tick is repeated, only the bodies that the changed inputs reach are simulated. All other
+/// bodies take the states that were recorded when the tick was last simulated. See docs/design/rollback.md.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The states and records of the last ticks of a session, and the step that uses them. It lies in the session's memory.
+/// The states and records of the last ticks of a session, and the step that uses them. The object lies in the session's
+/// memory.
 class SparseRollback {
  public:
-  /// Makes one in `memory`, for worlds of this one's capacity. The layout is that of sparse_layout().
+  /// Makes a SparseRollback in `memory`, for worlds with the capacity of `world`. The layout of the memory is that of
+  /// sparse_layout().
   static SparseRollback* begin(uint8_t* memory, const World& world, uint32_t window);
 
   /// Keeps the state of the world as the start of its next tick. Errors: capacity_differs.
   Status keep(const World& world);
-  /// Restores the state at the start of a tick. The records of this tick and of all later ones stay.
+  /// Restores the state at the start of a tick. The records of this tick and of all later ticks stay.
   /// Errors: capacity_differs, feature_missing.
   Status restore(World& world, uint64_t tick);
   /// The kept state at the start of one of the last ticks, to be read only.
   World kept(uint64_t tick) const;
-  /// Makes steps of this world come to this object until end_tick(). `again`: the tick was made before.
+  /// Until end_tick(), this object makes the steps of the world. `again`: the tick was simulated before.
   void start_tick(World& world, bool again);
   void end_tick(World& world);
 
   uint64_t summed = 0;        ///< the first tick whose checksum the session has not taken
-  uint64_t bodies_again = 0;  ///< awake bodies of ticks made again, summed over the ticks
-  uint32_t ticks_whole = 0;   ///< ticks made again in which all bodies were simulated
+  uint64_t bodies_again = 0;  ///< number of awake bodies that were simulated again, summed over the repeated ticks
+  uint32_t ticks_whole = 0;   ///< number of repeated ticks in which all bodies were simulated
 
  private:
   static StepReport make_step(void* context, World& world);
@@ -57,10 +59,10 @@ class SparseRollback {
   uint32_t window_ = 0;
   uint32_t spare_ = 0;  ///< image that no record uses
   bool again_ = false;
-  const uint8_t* block_ = nullptr;  ///< of the world whose tick is being made
+  const uint8_t* block_ = nullptr;  ///< of the world whose tick is being simulated
   StepObserver observer_ = {};
   const StepObserver* theirs_ = nullptr;  ///< the caller's observer
-  bool inside_ = false;                   ///< the step that runs now is of some of the bodies
+  bool inside_ = false;                   ///< the step that runs now simulates only some of the bodies
   bool noted_ = false;                    ///< note_stage() has filled `reach_` and `solved_`
   Span<Bounds> reach_ = {};
   BitSet solved_ = {};

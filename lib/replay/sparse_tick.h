@@ -11,17 +11,18 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// What a step was made from and what it did.
+/// The fixed-size part of the record of a step: the state from which the step started, and what it did.
 struct TickHead {
   uint64_t tick;      ///< before the step
-  uint32_t usable;    ///< 1 if the tick can be made again in part
-  uint32_t before;    ///< image of the state just before the step
+  uint32_t usable;    ///< 1 if the tick can be repeated in part
+  uint32_t before;    ///< index of the image of the state just before the step
   uint32_t buffers;   ///< bits 0 to 3: the world had a buffer for contact, joint, sensor, body events
-  uint32_t event[4];  ///< events in these buffers
+  uint32_t event[4];  ///< numbers of events in these buffers
   ImpactUse impacts;
   uint32_t joint_couplings, joint_numbers;
   StepReport report;
-  /// 1 if the tick was made again in part: the members below are of the run of TickRecord::part_inside.
+  /// 1 if the tick was repeated in part, and its result can be used again. Then the members below are of the run of the
+  /// bodies in TickRecord::part_inside.
   uint32_t part_known;
   uint32_t part_couplings, part_numbers;
   ImpactUse part_impacts;
@@ -41,37 +42,37 @@ struct TickRecord {
   Span<BodyEvent> body_events;
 };
 
-/// A tick that is made again in part. *Inside* are the bodies that are simulated; *visible* are these and the resting
-/// and kinematic bodies that they may touch. All other bodies take their recorded states.
+/// A tick that is repeated in part. The bodies *inside* are simulated. The *visible* bodies are the bodies inside and
+/// the resting and kinematic bodies that these may touch. All bodies that are not inside take their recorded states.
 struct SparseTick {
   using State = StateView<const uint8_t>;
 
   TickRecord record;
   State before;    ///< recorded, just before the step
   State after;     ///< recorded, just after the step
-  State now;       ///< of the tick that is made again, just before the step
-  uint32_t used;   ///< slots used, in `before` or in `now`
+  State now;       ///< of the tick that is repeated, just before the step
+  uint32_t used;   ///< number of slots used: the greater of those in `before` and `now`
   BitSet differs;  ///< bodies whose state before the step is not the recorded one
   BitSet inside;
   BitSet visible;
-  BitSet groups;         ///< sleeping groups of bodies inside
-  BitSet joints;         ///< joints inside, and those that differ
-  BitSet anchoring;      ///< other active joints of visible bodies that are not dynamic
-  Span<uint32_t> units;  ///< by slot: of a body that joints hold on to but do not move, its unit for joints in one run
-  Span<Bounds> boxes;    ///< of bodies inside: what they reach in either run
-  Span<Bounds> reach;    ///< TickRecord::reach of the run of the bodies inside
-  BitSet solved;         ///< TickRecord::solved of this run
-  Span<uint32_t> list;   ///< bodies inside that may move or that differ: they reach others
-  uint32_t count = 0;    ///< of `list`
-  uint32_t most = 0;     ///< the greatest number of bodies in `list`
-  bool grew = false;     ///< a body became visible or inside
-  bool has_groups = false;                            ///< `groups` is not empty
+  BitSet groups;            ///< sleeping groups of bodies inside
+  BitSet joints;            ///< joints of bodies inside, and joints that differ from the record
+  BitSet anchoring;         ///< other active joints of visible bodies that are not dynamic
+  Span<uint32_t> units;     ///< by slot: keep_units()
+  Span<Bounds> boxes;       ///< by slot, of bodies inside: what they reach in either run
+  Span<Bounds> reach;       ///< as TickRecord::reach, for the latest run of the bodies inside
+  BitSet solved;            ///< as TickRecord::solved, for the latest run
+  Span<uint32_t> list;      ///< bodies inside that may move or that differ: they reach others
+  uint32_t count = 0;       ///< number of bodies in `list`
+  uint32_t most = 0;        ///< the greatest permitted `count`
+  bool grew = false;        ///< a body became visible or inside
+  bool has_groups = false;  ///< `groups` is not empty
   uint32_t contacts_written = 0, sensed_written = 0;  ///< elements of the block that may be other than zero
 
   bool is_dynamic(uint32_t slot) const {
     return detent::is_dynamic(now.properties[slot]) || detent::is_dynamic(before.properties[slot]);
   }
-  /// Whether a pair with this body can touch or sense, whatever the other body is.
+  /// Whether a pair of this body and any other body can have a contact or be sensed.
   bool can_act(uint32_t slot) const {
     return is_dynamic(slot) || is_sensor(now.properties[slot]) || is_sensor(before.properties[slot]);
   }
@@ -93,29 +94,33 @@ struct SparseTick {
 
   /// Finds the bodies that differ. Returns false if something differs that concerns all bodies.
   bool find_differing();
-  /// Puts the bodies that differ inside, with their bounds in this tick.
+  /// Adds the bodies that differ to the bodies inside, with their bounds in this tick.
   void begin(const StepSettings& settings, Span<BodyWork> work);
-  /// Puts all bodies inside that the bodies inside reach. Returns false if there are too many.
+  /// Adds all bodies that the bodies inside reach to the bodies inside. Returns false if `count` exceeds `most`.
   bool expand();
-  /// Adds what the bodies inside have reached in their run. `active`: after this run.
+  /// Adds to `boxes` what the bodies inside have reached in their run. `active`: the active bodies after this run.
   void note_reach(BitSet active);
 
   // sparse_merge.cpp
 
-  /// Writes the state of the visible bodies to the block, with the contacts, joints and sensed pairs of those inside,
-  /// and restricts the step cache to them.
+  /// Writes the states of the visible bodies to the block, and the contacts, joints and sensed pairs of the bodies
+  /// inside. Restricts the step cache to the visible bodies.
   void load(const State& from, const StateView<uint8_t>& block);
   /// Writes the whole state `now` to the block again.
   void reset(const StateView<uint8_t>& block) const;
-  /// Keeps the units of the bodies that joints hold on to but do not move, after the run from the recorded state.
+  /// After the run from the recorded state: stores the units for joints of the bodies that joints hold on to but do not
+  /// move.
   void keep_units(Span<const JointBody> bodies) const;
-  /// Whether these units are as before, after the other run. All joints of a body share its unit.
+  /// After the run from the present state: whether these units are the same as after the run from the recorded state.
+  /// If a unit differs, joints outside may be affected, because all joints of a body share the body's unit.
   bool has_same_units(Span<const JointBody> bodies) const;
-  /// Whether the block has the recorded state after the step, for the bodies inside.
+  /// Whether the states of the bodies inside in the block are those that were recorded after the step.
   bool is_recorded(const StateView<uint8_t>& block) const;
-  /// Completes the block with the recorded states of all other bodies. False if the contacts do not fit.
+  /// Completes the block with the recorded states of all other bodies. Returns false if the contacts or the sensed
+  /// pairs do not fit.
   bool merge(const StateView<uint8_t>& block);
-  /// Completes the events of this step in the caller's buffers, which `report` counts. False if they do not fit.
+  /// Adds the recorded events of all other bodies to the events of this step in the caller's buffers. `report` counts
+  /// the events. Returns false if the events do not fit.
   bool merge_events(const WorldHooks& hooks, StepReport& report) const;
 
  private:

@@ -7,7 +7,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The value in place of a part's number that marks the end of a stage.
+/// TraceRecord::part of the record that ends a stage.
 inline constexpr uint32_t k_trace_stage_end = 0;
 
 struct TraceRecord {
@@ -16,7 +16,7 @@ struct TraceRecord {
   uint64_t place = 0;  ///< index of the element in its array; at a stage's end the number of elements
 };
 inline constexpr uint32_t k_trace_record_bytes = 6;
-inline constexpr uint32_t k_trace_digest_bytes = 4;  ///< the digest of an element, after its key (TraceLevel::stages)
+inline constexpr uint32_t k_trace_digest_bytes = 4;     ///< at TraceLevel::stages: an element's digest, after its key
 inline constexpr uint32_t k_trace_stage_end_bytes = 8;  ///< the digest of the stage
 
 inline void visit(Archive& archive, TraceRecord& record) {
@@ -25,7 +25,7 @@ inline void visit(Archive& archive, TraceRecord& record) {
   archive.bits("trace place", record.place, 4);
 }
 
-/// The size of the data after a record, bytes.
+/// The number of bytes of the data that follow a record.
 constexpr uint32_t trace_payload_bytes(const TracePart* part, bool full) {
   if (part == nullptr) return k_trace_stage_end_bytes;
   return full ? part->element_bytes : 4 * part->key_words + k_trace_digest_bytes;
@@ -39,12 +39,13 @@ struct TraceElement {
   const uint8_t* bytes = nullptr;  ///< the element, or its key and digest; or the stage's digest
 };
 
-/// Reads the trace of a tick from untrusted bytes. The elements that it returns lie within the bytes and have a known
+/// Reads the trace of a tick from untrusted bytes. The elements that next() gives lie within the bytes and have a known
 /// stage and part.
 class TraceReader {
  public:
   TraceReader(const uint8_t* bytes, uint32_t count, bool full) : bytes_(bytes), count_(count), full_(full) {}
-  /// Reads the next element. False at the end, and if the bytes are not a valid trace.
+  /// Reads the next element, or the end of a stage. Returns false at the end of the bytes, or if the bytes are not a
+  /// valid trace.
   bool next(TraceElement& element);
   /// Whether all bytes were read, the last stage is complete, and the stages are in order.
   bool whole() const { return at_ == count_ && !open_ && !failed_; }

@@ -9,10 +9,10 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Writes the trace of a tick through the recorder's buffer, which is empty before and after the trace.
+/// Writes the trace of a tick through the recorder's buffer. The buffer is empty before and after the trace.
 struct TraceWriter {
   Recorder& recorder;
-  const StepObserver* before = nullptr;  ///< the world's own observer
+  const StepObserver* before = nullptr;  ///< the observer that the world had before the trace
   TraceStage stage = TraceStage::calls;
   uint32_t elements = 0;
   uint64_t digest = 0;

@@ -10,9 +10,10 @@ inline namespace DETENT_NAMESPACE {
 /// dynamic body, except contacts of this colour.
 inline constexpr uint16_t k_colour_overflow = 63;
 
-/// ContactOrder::kind: the number of points, the number of angular rows from the bit k_rows_shift on, and the place in
-/// a group of contacts that are solved at once in the upper byte. This place is the number of the contacts, 2 to 8, for
-/// the first of them, k_in_group for the others, and 0 for a contact that is solved alone.
+/// The parts of ContactOrder::kind. The lowest bits (k_point_mask) are the number of points. The number of angular rows
+/// begins at the bit k_rows_shift. The upper byte (k_group_shift) tells whether the contact is in a group of contacts
+/// that are solved at once: 0 if it is solved alone; for the first contact of a group the number of contacts in the
+/// group, 2 to 8; for its other contacts k_in_group.
 inline constexpr uint32_t k_point_mask = 7;
 inline constexpr int k_rows_shift = 3, k_group_shift = 8;
 inline constexpr uint32_t k_in_group = 1;
@@ -20,9 +21,9 @@ constexpr uint32_t group_size(const ContactOrder& entry) { return uint32_t{entry
 
 /// Computes the order in which the solver visits contacts. First the contacts are sorted by the hash of their bodies'
 /// ids; contacts with equal hashes keep their order. In this order, each contact takes the lowest colour that is free
-/// at both of its dynamic bodies. The result is sorted by (island, colour, kind of work, hash). Any schedule that keeps
-/// the order of the contacts of each body gives the same bits. The order by hash, instead of the order of creation, is
-/// necessary for a pyramid to come to rest (docs/design/solver.md, "Order of the solve").
+/// at both of its dynamic bodies. The result is sorted by (island, colour, ContactOrder::kind, hash). Any schedule that
+/// keeps the order of the contacts of each dynamic body gives the same bits. The order by hash, instead of the order of
+/// creation, is necessary for a pyramid to come to rest (docs/design/solver.md, "Order of the solve").
 ///
 /// Input, from find_islands(): the islands of the bodies in `work`, and the ranges of contacts in `islands`. `spare` is
 /// work space as large as `order`. Returns the number of contacts that found no free colour.
@@ -32,8 +33,8 @@ uint32_t order_contacts(Span<const BodyProperties> properties, Span<const Contac
 
 /// Sorts the islands, so that islands which may be solved together follow each other: islands without joints and with
 /// the same number of substeps. The contacts of such a group are sorted together, by colour first, so that several
-/// contacts can be solved at once even if the islands are small. The result has the same bits, because islands share no
-/// dynamic body.
+/// contacts can be solved at once even if the islands are small. The solve gives the same bits as without this sort,
+/// because islands share no dynamic body.
 ///
 /// Input: the results of find_islands() and order_contacts(), and the islands' numbers of substeps; `slots` as in
 /// find_islands(). Renumbers the islands. In a group of islands that are solved together, the range of contacts of a

@@ -40,7 +40,7 @@ Real real_part(Real value, uint64_t) { return value; }
 ///     angular i, linear k:  share u e_i . G (r x e_k)
 ///     angular i, angular k: share u^2 G_ik
 ///
-/// `turning` is in Real, or in mantissas 2^-exponent.
+/// The elements of `turning` are Reals with `exponent` 0, or mantissas of values / 2^exponent.
 template <class Number>
 void add_response(const ContactWork& work, const Number (&turning)[3][3], int exponent, const Vec3<Unit>& arm,
                   Unit unit, Scaled share, PairResponse& response) {
@@ -91,8 +91,8 @@ PairResponse respond(const WorldInverseInertia& a, const WorldInverseInertia& b,
   return response;
 }
 
-/// Effective mass 1 / K over the reference mass. The relative inverse mass of the lighter body is 1, so `response` is
-/// at least 1, except for rounding.
+/// Effective mass 1 / K divided by the reference mass. `response` is K times the reference mass. It is at least 1,
+/// except for rounding, because the relative inverse mass of the lighter body is 1.
 Unit mass_of(Real response) {
   if (!(response > Real(1.0))) return 1.0;
 #if DETENT_FIXED
@@ -180,8 +180,8 @@ void share_mass(const BodyProperties& a, const BodyProperties& b, ContactWork& w
     work.inverse_mass_a = divide(b.mass, a.mass);
 }
 
-/// Returns the exponent of the pair's unit of length, a power of two in m, and sets that unit in the units of the
-/// bodies.
+/// Sets `unit_a` and `unit_b`: the pair's unit of length, measured in the unit of each body. Returns the exponent of
+/// the pair's unit, which is 2^exponent m.
 int32_t share_length(const BodyProperties& a, const BodyProperties& b, ContactWork& work) {
   const bool moves_a = type_of(a) != BodyType::fixed, moves_b = type_of(b) != BodyType::fixed;
   int32_t unit = moves_a ? a.size_exponent : b.size_exponent;
@@ -202,8 +202,8 @@ Real gravity_along(const StepSettings& settings, const BodyProperties& body, con
 }
 
 /// The normal velocity of an approaching point at the time of touch: -sqrt(v^2 - 2 pull s). v (`velocity`) < 0 is its
-/// normal velocity now, s (`separation`) the gap, `pull` < 0 the relative acceleration. With this value, a ball with
-/// restitution 1 bounces to the same height again.
+/// normal velocity now, m/s, s (`separation`) the gap, m, `pull` < 0 the relative acceleration along the normal, m/s^2.
+/// With this value, a ball with restitution 1 bounces to the height from which it fell.
 Real approach_at_touch(Real velocity, Real separation, Real pull) {
   // Above 256 m/s the acceleration over a gap is negligible, and squares leave the range of Real.
   const Real zero = 0.0, fast = 256.0;
@@ -212,10 +212,10 @@ Real approach_at_touch(Real velocity, Real separation, Real pull) {
   return -square_root(velocity * velocity - gain);
 }
 
-/// The growth of the gap in a tick, m, of two round bodies that slide past each other, because the contact normal
-/// rotates. Returns s^2 / D. s is the relative tangential displacement of the centres of curvature in the tick; D is
+/// How much the gap of two round bodies grows in a tick, m, because the contact normal rotates while they slide past
+/// each other. Returns s^2 / D. s is the relative tangential displacement of the centres of curvature in the tick; D is
 /// the distance of these centres. s^2 / D is twice the second-order term of the gap. Without this growth, the solver
-/// would stop bodies that only pass each other, along the normal at the start of the tick.
+/// would stop bodies that only pass each other, because it uses the normal at the start of the tick.
 __attribute__((noinline)) Real parted_by_sliding(const StepSettings& settings, const RowBody& a, const RowBody& b,
                                                  const Vec3<Unit>& normal, const ContactGeometryPoint& point) {
   const Unit round_a = round_radius(a.properties), round_b = round_radius(b.properties);
@@ -245,8 +245,8 @@ Vec3<Unit> mean(const ContactGeometry& geometry, Vec3<Unit> ContactGeometryPoint
   return sum;
 }
 
-/// Sets the positions of the points in the tangents' axes, relative to their middle, from the arms of a body whose unit
-/// is the pair's. Returns the root mean square of their distances from the middle.
+/// Sets the coordinates of the points along the tangents, relative to the middle of the points. `arm` is the arm of the
+/// body whose unit of length is the pair's. Returns the root mean square of the distances from the middle.
 Unit place_points(const ContactGeometry& geometry, Vec3<Unit> ContactGeometryPoint::*arm, const Vec3<Unit>& middle,
                   ContactWork& work) {
   const Unit share = share_of_points(geometry.count);
@@ -328,7 +328,7 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
     if (i >= work.angular_rows) continue;
     work.angular_impulse[i] = dot(work.state.angular_impulse, *axes[i]);
   }
-  // Limits of speeds are multiples of fall_speed() of the smaller body's extent.
+  // The limits of speed below are multiples of the fall_speed() of the smaller body's extent.
   const Real fall = min(a.fall, b.fall);
   work.push_max = scale_by_power(fall, -1);
   work.rebound_min = settings.restitution_threshold * fall;

@@ -9,8 +9,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// One body of a contact, as input for the rows. Its inverse inertia and its angular velocity, in units of
-/// 2^-k_angular_velocity_power m/s, are in world axes. `extent`: its smallest diameter, m. `fall`: fall_speed() of
+/// One body of a contact, as input for the rows. Its inverse inertia and its angular velocity are in world axes. The
+/// angular velocity is stored as BodyWork::angular_velocity: times the body's unit of length, in units of
+/// 2^k_angular_velocity_power m/s. `extent`: smallest diameter of the body's shape, m. `fall`: fall_speed() of
 /// `extent`, m/s.
 struct RowBody {
   const BodyProperties& properties;
@@ -19,7 +20,7 @@ struct RowBody {
   const WorldInverseInertia& inverse_inertia;
   const Vec3<Real>& angular_velocity;
   Real extent, fall;
-  bool jointed = false;  ///< the body has joints: impacts do not stop it (impact.h), only contacts do
+  bool jointed = false;  ///< the body has joints: only contact rows stop it, not impacts (impact.h)
 };
 
 /// Fills the rows of `work` from the geometry: arms, responses, effective masses, limits, and the approach speeds at
@@ -39,9 +40,9 @@ struct RowBody {
 ///     K = J M^-1 J^T = (1/m_A + 1/m_B) d . e + (r_A x d) . I_A^-1 (q_A x e) + (r_B x d) . I_B^-1 (q_B x e)
 ///
 /// All K are stored times the reference mass m, the mass of the lighter dynamic body: `coupling` has the K of the
-/// normal rows of each pair of points, `response` the K of the parts of a wrench at the middle. Effective masses are 1
-/// / (m K) of a row with itself: `inverse_mass`, `friction_mass`, `angular_mass`. Each row is solved by accumulated
-/// impulses:
+/// normal rows of each pair of points, `response` the K of the parts of a wrench at the middle of the points. The
+/// effective masses `inverse_mass`, `friction_mass` and `angular_mass` are 1 / (m K), with the K of a row with itself.
+/// The solver accumulates the impulse of each row, within these limits:
 ///
 ///     normal:   impulse >= 0
 ///     friction: |impulse| <= friction coefficient x sum of the normal impulses, as a vector along t and s
@@ -53,9 +54,10 @@ struct RowBody {
 void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b, const ContactGeometry& geometry,
                ContactWork& work);
 
-/// Leaves the impact of a contact to continuous collision, if its bodies do not overlap and approach so fast that they
-/// will rebound. For this, it disables the normal rows of the contact: it sets their effective masses to zero. Reason:
-/// the solver would distribute the impulse among all bodies in contact, while impacts are resolved one after the other.
+/// Leaves the impact of a contact to continuous collision, if the contact's bodies do not overlap and approach so fast
+/// that they will rebound. For this, the function disables the normal rows of the contact: it sets their effective
+/// masses to zero. The reason: the solver would distribute the impulse among all bodies in contact, while continuous
+/// collision resolves impacts one after the other.
 void leave_to_impact(const StepSettings& settings, const RowBody& a, const RowBody& b, ContactWork& work);
 inline bool is_left_to_impact(const ContactWork& work) { return work.inverse_mass[0] == Unit(0.0); }
 
@@ -63,24 +65,24 @@ inline bool is_left_to_impact(const ContactWork& work) { return work.inverse_mas
 /// unchanged.
 void renew_response(const WorldInverseInertia& a, const WorldInverseInertia& b, ContactWork& work);
 
-/// The matrix K of a pair times the reference mass: the change of the pair's relative motion by a unit wrench at the
-/// middle of its points. response_index() gives the index of an element.
+/// The matrix K of a contact times the reference mass: the change of the bodies' relative motion by a unit wrench at
+/// the middle of the contact's points. response_index() gives the index of an element.
 struct PairResponse {
   Real part[k_responses];
 };
 
-/// Computes the response with the precision of Real. The response that make_rows() stores is less precise: it is
-/// rounded to 2^-30 of its largest element, which is a large error for a slender body.
+/// Computes the response with the precision of Real. make_rows() stores a less precise response: each element is
+/// rounded to 2^-30 of the largest element, which is a large error for a slender body.
 PairResponse respond_exactly(const BodyProperties& a, const Quat& rotation_a, const BodyProperties& b,
                              const Quat& rotation_b, const ContactWork& work);
 
-/// Stores the impulses of the solve in `work.state`, in world axes.
+/// Stores the friction and angular impulses of the solve in `work.state`, in world axes.
 void store_impulses(ContactWork& work);
 
-/// Whether the contact keeps its bodies apart in a tick with these displacements, m, and rotation vectors, times the
-/// bodies' units of length, m, in world axes. The condition for each point, to first order in the motion: a point that
-/// is open at the start of the tick gets at most `depth` deep, m; a point that overlaps at the start gets at most
-/// `depth` deeper.
+/// Whether the contact's bodies stay apart in a tick with the given motions: displacements, m, and rotation vectors
+/// times the bodies' units of length, m, both in world axes. Each point must meet a condition, to first order in the
+/// motion: if it is open at the start of the tick, it becomes at most `depth`, m, deep; if it overlaps at the start, it
+/// becomes at most `depth` deeper.
 bool keeps_apart(const ContactWork& contact, const Vec3<Real>& displacement_a, const Vec3<Real>& rotation_vector_a,
                  const Vec3<Real>& displacement_b, const Vec3<Real>& rotation_vector_b, Real depth);
 

@@ -5,22 +5,23 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A point counts as in contact if its approach speed is at most 2^k_arrival_power push_max below the speed that closes
-/// its gap.
+/// A point with a gap counts as in contact if its approach speed is at least the speed that closes the gap in this
+/// substep, minus 2^k_arrival_power push_max.
 inline constexpr int k_arrival_power = -9;
-/// Largest number of rounds in which the points of a contact change between touching and not.
+/// Largest number of rounds of block pivoting in solve_rows().
 inline constexpr int k_pivot_rounds = 6;
-/// Softness of rows that are not springs, over their response: it makes impulses of redundant points definite.
+/// Softness of a row that is not a spring, as a fraction of the row's diagonal element of K. Without it, the impulses
+/// of redundant points would be indefinite.
 inline constexpr Unit k_rigid_softness = 1.0 / 32;
 
-/// A change times the relaxation of SOR.
+/// A change of an impulse times the relaxation factor of SOR.
 template <class Kind>
 inline typename Kind::Number relaxed(typename Kind::Number change, Unit relaxation) {
   return relaxation == Unit(1.0) ? change : typename Kind::Number(times(held(change), Kind::unit(relaxation)));
 }
 
-/// The normal rows of a contact in one pass over its points. The motions of the bodies are read when the pass begins,
-/// and written when it ends.
+/// The normal rows of a contact while the solver visits the contact. The motions of the bodies are read when the visit
+/// begins, and written when it ends.
 template <class Kind>
 struct Normals {
   using Number = typename Kind::Number;
@@ -33,7 +34,7 @@ struct Normals {
   typename Kind::Sum velocity[k_manifold_points_max];
   Number impulse[k_manifold_points_max];  ///< accumulated normal impulses, updated with each change; factors
   Number added[k_manifold_points_max];
-  // The rows for solve_rows().
+  // Input of solve_rows().
   Factor wanted[k_manifold_points_max];    ///< speed minus the target; to be set
   Factor softness[k_manifold_points_max];  ///< mantissas of the coupling
   Mask may[k_manifold_points_max];         ///< whether the impulse may change
@@ -53,9 +54,10 @@ struct Normals {
     }
   }
   Number speed(uint32_t i) const { return rounded(velocity[i], contact.coupling_exponent); }
-  /// Solves the rows of all points at once. With w = wanted + (K + S) change, K the coupling and S the diagonal of
-  /// `softness`: each point that `may` change has w = 0 and an impulse of at least 0, or an impulse of 0 and w >= 0. In
-  /// each round the points that the last solution contradicts change sides (block pivoting).
+  /// Solves the rows of all points at once. With the coupling K and the diagonal matrix S of `softness`, let
+  /// w = wanted + (K + S) change. In the solution each point that `may` change is active, with w = 0 and an impulse of
+  /// at least 0, or at rest, with an impulse of 0 and w >= 0. In each round, an active point with a negative impulse
+  /// becomes a point at rest, and a point at rest with w < 0 becomes active (block pivoting).
   /// Source: Judice, Pires, "A block principal pivoting algorithm ...", Computers and Operations Research, 1994.
   void solve_rows(Unit relaxation) {
     const Factor none = Kind::zero();
@@ -127,8 +129,8 @@ struct Normals {
     for (uint32_t k = 0; k < k_manifold_points_max; ++k) sum += product(change[k], contact.coupling[i][k]);
     return rounded(sum, contact.coupling_exponent);
   }
-  /// Solves (K + S) change = -wanted for the active points by a factor L D L^T; the other points that may take part
-  /// give up their impulses.
+  /// Solves (K + S) change = -wanted for the active points by a factor L D L^T. The changes of the other points that
+  /// `may` change set their impulses to 0.
   void solve_active(const Mask (&active)[k_manifold_points_max], Factor (&change)[k_manifold_points_max]) const {
     const Factor none = Kind::zero();
     DETENT_UNROLL
@@ -165,7 +167,7 @@ struct Normals {
   }
 };
 
-/// The relative motion of a pair in the pass with friction, and the wrench that this pass has applied to the pair.
+/// The relative motion of a pair while relax() visits the contact, and the wrench that this visit has applied so far.
 template <class Kind>
 struct Sliding {
   using Number = typename Kind::Number;
@@ -191,7 +193,8 @@ struct Sliding {
   NormalMotion<Kind> normal() const {
     return {held(part[k_along_normal]), held(part[k_about_first]), held(part[k_about_second])};
   }
-  /// Applies an impulse along or about one axis, and updates the motion with that column of the response matrix.
+  /// Applies an impulse along or about the axis `by`, and updates the motion with the column `by` of the response
+  /// matrix.
   template <Part by>
   void act(Factor more) {
     wrench[by] += more;
@@ -246,9 +249,11 @@ struct ContactSolver {
   ///     C > 0, speculative: J v >= -C / h: the gap may close, but not become negative
   ///     C <= 0, soft:       J v = -max(rate C / h, -push_max)
   ///
-  /// A soft row is a damped spring (Softness). Each sweep changes its impulse by
+  /// A soft row is a damped spring (Softness). Each sweep over the contacts changes the impulse of a single soft row by
   ///
-  ///     -(mass_scale m (J v - target) + impulse_scale impulse)
+  ///     -(m (J v - target) + s impulse) / (1 + s)
+  ///
+  /// where s is the softness over the row's response: 8 spring_eighth.
   void solve_normals() {
     typename Kind::Block near;
     near.include(contact.separation, contact.state.point_count);
@@ -267,7 +272,7 @@ struct ContactSolver {
       const Factor separation = held(moved.block.number(contact.separation[i]) + displacement.at(contact, i));
       apart[i] = separation > none;
       const Factor length = select(apart[i], separation, Factor(held(times(separation, soft.rate))));
-      // In the block of the lengths, times 2^-rate_exponent.
+      // A speed times 2^-rate_exponent, as a number of the block of `moved`.
       push[i] = select(Kind::has_point(contact, i), held(times(length, Kind::unit(settings.rate_mantissa))), none);
       least = min(least, push[i]);
     }
@@ -364,18 +369,18 @@ struct ContactSolver {
     sliding.template bring<first>(after[0], impulse[0]);
     sliding.template bring<second>(after[1], impulse[1]);
   }
-  /// Solves rolling friction: it stops the angular velocity about the tangents, within its limit.
+  /// Solves rolling friction: stops the angular velocity about the tangents, within the limit of the impulse.
   void solve_rolling(Factor normal, Sliding<Kind>& sliding) {
     stop_in_circle<k_about_first, k_about_second>(contact.angular_impulse + 1, contact.angular_mass + 1,
                                                   times(normal, contact.rolling_arm), sliding);
   }
-  /// Solves twist friction: it stops the angular velocity about the normal, within its limit.
+  /// Solves twist friction: stops the angular velocity about the normal, within the limit of the impulse.
   void twist(Factor normal, Sliding<Kind>& sliding) {
     const Factor limit = times(normal, contact.twist_arm);
     const Factor step = stopped(sliding, k_about_normal, contact.angular_impulse[0], contact.angular_mass[0]);
     sliding.template bring<k_about_normal>(clamp(step, Factor(-limit), limit), contact.angular_impulse[0]);
   }
-  /// Solves sliding friction: it stops the velocity along the tangents, within the friction cone.
+  /// Solves sliding friction: stops the velocity along the tangents, within the friction cone.
   void solve_friction(Factor normal, Sliding<Kind>& sliding) {
     stop_in_circle<k_along_first, k_along_second>(contact.friction_impulse, contact.friction_mass,
                                                   times(normal, contact.friction), sliding);

@@ -15,7 +15,7 @@ inline namespace DETENT_NAMESPACE {
 /// island, and ascending within each island. Islands are in the order of their first slots. Also counts the contacts of
 /// each island, and sets its range in the order of the solve. Returns the number of islands.
 ///
-/// A *run* is a chain of bodies each of which touches at most two others, for example a tower.
+/// A *run* is a set of dynamic bodies that contacts connect, each with at most two contacts, for example a tower.
 uint32_t find_islands(Span<const uint32_t> slots, Span<const BodyProperties> properties,
                       Span<const BodyActivity> activities, Span<const ContactWork> contacts, const JointStage& joints,
                       Span<BodyWork> work, Span<Island> islands, Span<uint32_t> bodies);

@@ -2,8 +2,8 @@
 #include "solver/contact_solver.h"
 #include "solver/lanes.h"
 
-/// Contacts, or bodies, read from memory into lanes and written back. `count` is the number of lanes: 4, or 8 in f32 on
-/// x86-64.
+/// Reads contacts or bodies from memory into lanes, and writes them back. `count` is the number of lanes: 4, or 8 in
+/// f32 on x86-64.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -21,7 +21,8 @@ struct EachLane {
   }
 };
 
-/// The words a, b, c and d of each 128 bits of two registers: 0 to 3 are the words of the first, 4 to 7 of the second.
+/// Picks the words a, b, c and d of each 128 bits of two registers: 0 to 3 are the words of the first register, 4 to 7
+/// those of the second.
 template <int a, int b, int c, int d, class Row>
 DETENT_LANES_INLINE Row picked(Row first, Row second) {
   if constexpr (sizeof(Row) == 16) {
@@ -142,7 +143,7 @@ DETENT_LANES_INLINE void write_three(const Lanes<count> (&from)[3], Real* const 
 }
 #endif
 
-/// Reads the first `words` words of `count` arrays. Range: `words` is a multiple of 4, and they are readable.
+/// Reads the first `words` words of `count` arrays. Range: `words` is a multiple of 4; every array has that many words.
 template <uint32_t count, uint32_t words>
 struct LaneWords {
   LaneInt32<count> word[words];
@@ -167,8 +168,8 @@ struct LaneWords {
   }
   /// 2^exponent.
   DETENT_LANES_INLINE static LaneUnits<count> power(LaneInt32<count> exponent) { return {single_power(exponent)}; }
-  /// A Scaled by which a factor is multiplied. Factors are integers below 2^26, so larger and smaller exponents have
-  /// the same results as the limits.
+  /// A Scaled by which a factor is multiplied. The exponent is clamped: factors are integers below 2^26, so an exponent
+  /// beyond a limit gives the same results as the limit.
   DETENT_LANES_INLINE LaneScaled<count> scaled(uint32_t i) const {
     const LaneInt32<count> least = LaneInt32<count>{} - 100, most = LaneInt32<count>{} + 40;
     LaneInt32<count> exponent = word[i + 1] < least ? least : word[i + 1];
@@ -205,9 +206,9 @@ struct LaneSoftness {
   Lanes<count> rate, spring_eighth;
 };
 
-/// Contacts with equal numbers of angular rows, as they are kept while their island is solved: ContactWork has the
-/// members' meanings. A member that has one value in each contact has one in each lane. Lanes without a contact have a
-/// copy of the last one, whose results are not used.
+/// A group of contacts with equal numbers of angular rows, as the group is stored while its island is solved. The
+/// members have the same meaning as in ContactWork, with one value for each lane. Lanes without a contact have a copy
+/// of the group's last contact; the results of these lanes are not used.
 template <uint32_t count>
 struct LaneContact {
   uint32_t used;                  ///< number of lanes with a contact
@@ -223,15 +224,15 @@ struct LaneContact {
   Vec3<LaneUnits<count>> normal, tangent[2], moment_a, moment_b;
   LaneUnits<count> unit_a, unit_b;
   LaneUnits<count> coupling[k_manifold_points_max][k_manifold_points_max];
-  static constexpr int coupling_exponent = 0;  // the coupling includes it
+  static constexpr int coupling_exponent = 0;  // `coupling` includes the exponent
 #if DETENT_FIXED
-  /// 1 over the least part of a mantissa of the coupling, and that part
+  /// `coupling_step`: the value of the last bit of a mantissa of `coupling`. `coupling_power`: 1 / coupling_step.
   LaneUnits<count> coupling_power, coupling_step;
 #endif
   LaneUnits<count> friction_mass[2];
   Vec3<LaneUnits<count>> middle_a, middle_b;
   LaneUnits<count> response[k_responses];
-  static constexpr int response_exponent = 0;  // the response includes it
+  static constexpr int response_exponent = 0;  // `response` includes the exponent
   LaneUnits<count> x[k_manifold_points_max], y[k_manifold_points_max], inverse_mass[k_manifold_points_max];
   LaneStoredInt32<count> apart[k_manifold_points_max];
   LaneReals<count> separation[k_manifold_points_max], impulse_max[k_manifold_points_max];
@@ -332,8 +333,8 @@ struct LaneKind {
     return max(value, zero());
 #endif
   }
-  /// Always true: impulses on a non-dynamic body have no effect, because its relative inverse mass is 0 and it is not
-  /// written back.
+  /// Always true: impulses on a non-dynamic body have no effect, because the relative inverse mass of the body is 0 and
+  /// the body is not written back.
   DETENT_LANES_INLINE static bool takes_impulses(const Scaled&) { return true; }
   DETENT_LANES_INLINE static Mask has_point(const Contact& contact, uint32_t i) {
     const Flags points = contact.points;

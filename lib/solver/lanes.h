@@ -2,8 +2,9 @@
 #include "base/unroll.h"
 #include "motion/block.h"
 
-/// Lanes: registers that hold one number of each of four or eight contacts. The operations of block.h, applied to each
-/// lane; the results have the same bits. Only for files that are compiled for processors with registers of 256 bits.
+/// Lanes: registers that hold one number of each of four or eight contacts. The operations of block.h are applied to
+/// each lane, and give the same bits as for a single contact. Only for files that are compiled for processors with
+/// registers of 256 bits.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -15,7 +16,8 @@ using LaneNumber = double;
 using LaneNumber = Real;
 #endif
 
-/// The vectors of `count` numbers, and those that may be stored at addresses that are multiples of 8.
+/// The vector types of `count` numbers. The types named Stored... may be stored at any address that
+/// is a multiple of 8.
 template <uint32_t count>
 struct LaneVectors;
 
@@ -41,8 +43,9 @@ struct LaneVectors<8> {
   typedef float StoredSingle __attribute__((vector_size(32), aligned(8)));
 };
 
-/// The numbers of `count` contacts, and their operations. Range of `count`: 4; in f32 on x86-64 also 8. Operations are
-/// friends, which a call finds by the types of its arguments; those on bare vectors are static members.
+/// The numbers of `count` contacts, and the operations on them. Range of `count`: 4; in f32 on x86-64 also 8. An
+/// operation is a friend function, which a call finds by the types of its arguments; an operation on plain vectors is a
+/// static member.
 template <uint32_t count>
 struct LaneTypes {
   using LaneInt32 = typename LaneVectors<count>::Int32;
@@ -68,8 +71,8 @@ struct LaneTypes {
   struct LaneReals {
     LaneStoredInt64 v;
   };
-  /// A product that is not yet computed: what is added to it is added in the same instruction. As every product and sum
-  /// is exact, this changes no bit.
+  /// A product that is not yet computed: multiplication and a following addition become one instruction. As every
+  /// product and sum is exact, this changes no bit.
   struct LaneProduct {
     LaneFloat a, b;
     DETENT_LANES_INLINE operator Lanes() const { return {a * b}; }
@@ -260,7 +263,7 @@ struct LaneTypes {
       include_bits(all, k_number_drop);
     }
     DETENT_LANES_INLINE void include_speed(Lanes speed, const LaneBlock& from, int exponent, LaneReals most) {
-      // The bits below are below the finest step of a block.
+      // The lowest 12 bits of a raw Real are below the finest step of a block.
       constexpr int k_drop = 12;
       static_assert(k_drop < k_shift_min + k_number_bits);
       const LaneInt64 bits = bit_lengths(speed) + from.shift_ + words_of(exponent);

@@ -10,7 +10,8 @@ namespace {
 
 constexpr int k_position_sweeps = 4;  ///< sweeps over the contacts of an island
 
-/// The displacement and the rotation vector of a body, in the members for its velocity and its angular velocity.
+/// A body whose displacement and rotation vector take the places of the velocity and the angular velocity, so that the
+/// solver's functions for velocities correct positions.
 struct MovedBody {
   BodyMotion motion;
   BodyWork& work;

@@ -67,11 +67,11 @@ uint32_t integrate_positions(const SolverBodies& bodies, Span<const uint32_t> is
   return clamped;
 }
 
-/// Each round leaves a 33rd of the last one's error, due to k_rigid_softness.
+/// Number of solves of a rebound. Each leaves 1/33 of the error, because of k_rigid_softness (1/32).
 constexpr uint32_t k_rebound_rounds = 5;
 
-/// Applies Newton's law of impact (restitution) to points that approached faster than the threshold and had a normal
-/// impulse.
+/// Applies Newton's law of impact (restitution) to the points of a contact that approached faster than
+/// ContactWork::rebound_min and had a normal impulse in this tick.
 void rebound(ContactSolver<One>& solver) {
   ContactWork& contact = solver.contact;
   if (!is_positive(contact.restitution)) return;
@@ -103,12 +103,12 @@ void rebound(ContactSolver<One>& solver) {
 
 constexpr uint32_t k_joint_rounds = 4;  ///< rounds per substep that alternate between contacts and joints
 
-/// Stores the velocities before a sweep.
+/// Stores the bodies' current velocities, for has_settled().
 void remember(const SolverBodies& bodies, Span<const uint32_t> island) {
   for (const uint32_t slot : island) bodies.work[slot].velocity_before = bodies.motions[slot].linear_velocity;
 }
 
-/// Whether no component of a velocity changed by more than `enough`, m/s, in the last sweep.
+/// Whether no component of a linear velocity has changed by more than `enough`, m/s, since remember().
 bool has_settled(const SolverBodies& bodies, Span<const uint32_t> island, Real enough) {
   for (const uint32_t slot : island) {
     const Vec3<Real> change = bodies.motions[slot].linear_velocity - bodies.work[slot].velocity_before;
@@ -132,8 +132,8 @@ uint32_t solved_at_once(const StepSettings& settings, Span<const ContactOrder> o
   return count;
 }
 
-/// Marks the contacts of the island that are solved at once, and puts them into lanes. A group that leaves lanes empty
-/// needs space that later groups do not need; without it, fewer contacts are solved at once.
+/// Marks the groups of contacts that are solved at once, and puts them into lanes. A group takes whole LaneSpaces, even
+/// if it leaves lanes empty. It is made smaller if the later contacts would have less than one LaneSpace per four.
 void put_all_in_lanes(const StepSettings& settings, const SolverBodies& bodies, const IslandContacts& all) {
   if (!uses_lanes(settings)) return;
   uint32_t used = 0;
@@ -172,8 +172,8 @@ struct ContactPass {
   void (*group)(const StepSettings& settings, const SolverBodies& bodies, LaneSpace* lanes, uint32_t count);
 };
 
-/// One pass over contacts in their order, from `first` to `last`. Of the groups, those that begin in this range take
-/// part.
+/// One pass over the contacts from `first` to before `last`, in their order. A group of contacts takes part if its
+/// first contact is in this range.
 void pass_in_order(const StepSettings& settings, const SolverBodies& bodies, const IslandContacts& all, uint32_t first,
                    uint32_t last, const ContactPass& pass) {
   for (uint32_t i = first; i < last; ++i) {
@@ -204,8 +204,8 @@ uint32_t colour_count(Span<const ContactOrder> order) {
   return low;
 }
 
-/// One pass over all contacts of an island. Threads share the contacts of each colour: these have no dynamic body in
-/// common.
+/// One pass over all contacts of an island. Threads share the contacts of each colour, because these have no dynamic
+/// body in common. One thread solves the contacts of k_colour_overflow.
 void pass_over(const StepSettings& settings, const SolverBodies& bodies, const IslandContacts& all,
                const ContactPass& pass) {
   if (settings.team == nullptr) {
@@ -234,7 +234,7 @@ void place_kinematic(const BodyProperties& properties, const BodyMotion& motion,
 /// Recomputes the responses of contacts whose bodies have joints, so that contacts and joints use the same inertias.
 void renew_responses(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                      const IslandContacts& all) {
-  uint32_t start = 0;  // the first contact of the current group
+  uint32_t start = 0;  // index of the first contact of the current group
   bool renewed = false;
   for (uint32_t i = 0; i < all.order.count; ++i) {
     ContactWork& contact = all.contacts[all.order[i].contact];
@@ -288,8 +288,8 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
   Real elapsed = 0.0;
   const Real enough = scale_by_power(settings.gravity_size * settings.time, -static_cast<int>(settings.convergence));
   const Real enough_for_joints = scale_by_power(settings.gravity_size * settings.time, -2);
-  /// Sweeps over the contacts until no velocity changes by more than `enough`, or until the number of iterations is
-  /// reached.
+  /// Sweeps over the contacts, at most settings.iterations times. Ends when no velocity changes by more than `enough`
+  /// in a sweep.
   const auto sweep = [&](const ContactPass& of) {
     for (uint32_t iteration = 1;; ++iteration) {
       const bool last = iteration == settings.iterations;
@@ -302,7 +302,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
       }
     }
   };
-  /// The given number of sweeps over the contacts, after their bodies' velocities are stored.
+  /// Stores the velocities of the bodies, then sweeps over the contacts `times` times.
   const auto sweep_times = [&](uint32_t times, const ContactPass& of) {
     remember(bodies, island);
     for (uint32_t left = times; left > 0; --left) pass_over(settings, bodies, all, of);

@@ -26,15 +26,15 @@ struct IslandJoints {
   JointStage* stage = nullptr;
 };
 
-/// The contacts of an island in their order, and the work space of the groups that are solved at once: that of a group
-/// begins with lanes[key], with the key of the group's first contact.
+/// The contacts of an island in the order of the solve, and the work space for groups of contacts that are solved at
+/// once. The work space of a group begins at lanes[key], where `key` is ContactOrder::key of the group's first contact.
 struct IslandContacts {
   Span<ContactOrder> order;
   Span<ContactWork> contacts;
   Span<LaneSpace> lanes;
 };
 
-/// Whether any of the contacts is with a kinematic body.
+/// Whether a body of any of the contacts is kinematic.
 bool has_kinematic_contact(Span<const BodyProperties> properties, Span<const ContactOrder> order,
                            Span<const ContactWork> contacts);
 

@@ -29,7 +29,7 @@ struct Words {
   }
   DETENT_LANES_INLINE LaneScaled<count> scaled(uint32_t offset) const { return words.scaled(index(offset)); }
   DETENT_LANES_INLINE LaneShare<count> share(uint32_t offset) const { return words.share(index(offset)); }
-  /// Reads Units that stand for their value times 2^exponent.
+  /// Reads mantissas, and multiplies them by 2^exponent.
   template <unsigned used>
   DETENT_LANES_INLINE void units(uint32_t offset, LaneUnits<count> (&to)[used],
                                  LaneInt32<count> exponent = LaneInt32<count>{}) const {
@@ -123,8 +123,8 @@ struct Bodies {
 #endif
   }
   DETENT_LANES_INLINE void write(const LaneBody<count>& from, const uint32_t (&takes)[count]) const {
-    // Receives the results for bodies that take no impulses. They must not be written back, because such a body may
-    // belong to several of the contacts.
+    // `no_motion` and `no_work` receive the results for bodies that take no impulses. Such a body must not be written
+    // back, because it may belong to several contacts of the group.
     BodyMotion no_motion;
     BodyWork no_work;
     BodyMotion* motions[count];
@@ -189,8 +189,8 @@ DETENT_LANES_INLINE void each_impulse(Lane& lanes, const Visit& visit) {
   visit([](auto& contact) { return contact.angular_impulse; }, lanes.angular_impulse);
 }
 
-/// Sets the rows of points that a contact does not have. They have no impulse, and their products change no sum, not
-/// even the sign of a zero.
+/// Sets the rows of absent points, if a contact has fewer points than the group. These rows get no impulse. Their
+/// products change no sum, not even the sign of a zero.
 template <uint32_t count>
 DETENT_LANES_INLINE void clear_absent_points(LaneContact<count>& to) {
   for (uint32_t lane = 0; lane < count; ++lane) {

@@ -2,8 +2,8 @@
 #include "solver/solve.h"
 
 /// The passes of the solver for up to four or eight contacts at once, for processors with registers of 256 bits. Each
-/// lane executes the operations for one contact, so the results have the same bits (tests/unit/solver/lanes_test.cpp).
-/// The contacts are in lanes while their island is solved.
+/// lane executes the same operations as the solver of a single contact, so the results have the same bits
+/// (tests/unit/solver/lanes_test.cpp). The contacts stay in lanes while their island is solved.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -14,19 +14,19 @@ inline constexpr uint32_t k_lanes_max = 8;
 #else
 inline constexpr uint32_t k_lanes_max = 4;
 #endif
-/// Whether this machine has these registers. On a virtual machine this call can take longer than the step of a small
-/// world.
+/// Whether this machine has the instructions for the lanes. On a virtual machine this call can take longer than the
+/// step of a small world.
 bool has_lanes();
 
-// A group has up to 4 contacts and one LaneSpace, or up to 8 contacts and two that follow each other (lane_spaces()).
+// A group has up to 4 contacts and one LaneSpace, or up to 8 contacts and two adjacent LaneSpaces (lane_spaces()).
 // `count` is the number of contacts. Range: 1 to k_lanes_max.
 
 /// Puts the contacts of a group into lanes. Range: no dynamic body belongs to two of the contacts; all have equal
-/// numbers of angular rows; their numbers of points do not decrease, and are all 1 or all above 1; points that a
-/// contact does not have have no impulse.
+/// numbers of angular rows; their numbers of points do not decrease from contact to contact, and are all 1 or all above
+/// 1; in each contact, the impulses of absent points are 0.
 void put_in_lanes(const SolverBodies& bodies, Span<const ContactWork> contacts, Span<const ContactOrder> group,
                   LaneSpace* lanes);
-/// Reads the rows of the contacts, and the inverse inertias of their bodies, again. Impulses stay.
+/// Reads the rows of the contacts and the inverse inertias of their bodies again. The impulses in lanes stay unchanged.
 void renew_lanes(const SolverBodies& bodies, Span<const ContactWork> contacts, LaneSpace* lanes, uint32_t count);
 /// Writes the impulses back to the contacts.
 void take_from_lanes(const LaneSpace* lanes, uint32_t count, Span<ContactWork> contacts);

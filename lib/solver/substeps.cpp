@@ -10,10 +10,11 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The numbers of substeps that an island can have. If the limit of the island lies between two of them, the limit is
-/// possible too.
+/// The numbers of substeps that an island can have. If the limit of the island lies between two of these numbers, the
+/// island can have the limit, too.
 constexpr uint32_t k_notches[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
-/// A lower number of substeps is ample if it is enough for this multiple of the need.
+/// The number of substeps decreases only to a number that is enough for k_in_hand times the squared number that the
+/// contacts need.
 constexpr Scaled k_in_hand = 1.0 / 0.6;
 /// The least number of bodies of a run that can buckle: a shorter run sinks before it buckles.
 constexpr uint32_t k_run_min = 3;
@@ -24,8 +25,8 @@ Scaled square_of(uint32_t n) {
   return multiply(scaled, scaled);
 }
 
-/// The squared number of substeps that the contact needs. The sag takes at most k_jointed_sag_substeps if the island
-/// has joints.
+/// The squared number of substeps that the contact needs for its sag and against buckling. In an island with joints
+/// (`jointed`), the sag accounts for at most k_jointed_sag_substeps.
 Scaled needed(const StepSettings& settings, const ContactWork& contact, const BodyProperties& a,
               const BodyProperties& b, uint32_t run, bool jointed) {
   Scaled contact_frequency = 0.0;
@@ -83,7 +84,7 @@ void scale_impulses(Scaled ratio, ContactWork& contact) {
   for (Real& impulse : contact.angular_impulse) scale(impulse);
 }
 
-/// Scales impulses of a tick with `before` substeps for a tick with `now` substeps.
+/// Scales a contact's impulses, which were stored in a tick with `before` substeps, for a tick with `now` substeps.
 void rescale(uint32_t before, uint32_t now, ContactWork& contact) {
   if (before == now || before == 0) return;
   scale_impulses(divide(scaled_from_count(before), scaled_from_count(now)), contact);
@@ -237,7 +238,7 @@ void estimate_loads(const StepSettings& settings, Span<const BodyPose> poses, Sp
 
 void store_load(const StepSettings& settings, ContactWork& contact) {
   Real impulse = 0.0;
-  // The sum of four may exceed the range of Real, and would wrap.
+  // Clamped: the sum of four impulses may exceed the range of Real, and would wrap.
   for (const Real part : contact.state.normal_impulse) impulse += min(part, k_real_max - impulse);
   bool saturated = false;
   const Real force = multiply(impulse, settings.rate, saturated);

@@ -6,16 +6,16 @@
 
 /// Chooses the number of substeps of an island: the fewest that are stiff enough for its loads.
 ///
-/// A soft contact of angular frequency w, rad/s, under a force W sinks by W / (k w^2), where k is the sum of the
-/// effective masses of its points. A column of n such contacts buckles unless k w^2 > W n^2 / (width of the column). w
-/// is a fixed fraction of the substep rate. Therefore both the permitted sag (WorldDef::resting_penetration) and the
-/// column require a number of substeps. In islands with joints w is a fraction of a fixed rate instead
-/// (k_jointed_stiffness), because a substep costs much there.
+/// A soft contact of angular frequency w, rad/s, under a force W, N, sinks by W / (k w^2), m, where k is the sum of the
+/// effective masses of its points, kg. A column of n such contacts buckles unless k w^2 > W n^2 / (width of the
+/// column). w is a fixed fraction of the substep rate. Therefore both the permitted sag (WorldDef::resting_penetration)
+/// and the stability of the column require a minimum number of substeps. In islands with joints, w is a fraction of a
+/// fixed rate instead (k_jointed_stiffness), because a substep costs much there.
 /// Source: the sag of a spring; Euler, "De curvis elasticis", 1744, for a column with elastic joints.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Limits for large islands, so that a single contact cannot make a whole pile expensive.
+/// Limits of the number of substeps, so that a single contact cannot make a whole large island expensive.
 struct SubstepLimit {
   uint32_t contact_substeps;  ///< largest product of contacts and substeps; a joint counts as k_joint_contacts contacts
   uint32_t always;            ///< this number of substeps is always permitted
@@ -28,21 +28,22 @@ inline constexpr SubstepLimit k_face_limit = {k_contact_substeps, 6};
 /// The limit for rolling contacts, which can only sink.
 inline constexpr SubstepLimit k_rolling_limit = {k_rolling_substeps, 4};
 inline constexpr uint32_t k_edge_points = 2;
-/// The largest number of substeps that an island with joints takes for the sag of its contacts, which are stiff already
-/// (k_jointed_stiffness). This number is always permitted there.
+/// The largest number of substeps that an island with joints takes for the sag of its contacts. It is small, because
+/// the contacts of such an island are stiff already (k_jointed_stiffness). In islands with joints this number is always
+/// permitted.
 inline constexpr uint32_t k_jointed_sag_substeps = 6;
 inline constexpr uint32_t k_joint_contacts = 8;
-/// The number of ticks in a row in which fewer substeps must be enough, before the number of substeps is reduced.
+/// The number of substeps decreases when fewer substeps were enough in this number of ticks in a row.
 inline constexpr uint32_t k_calm_ticks = 60;
-/// The same where half the number of substeps would be enough: so high a number comes from impacts, not from loads. The
-/// same also for islands with joints, which need more substeps only while their bodies rotate.
+/// Replaces k_calm_ticks in two cases. If half the number of substeps is enough, the high number came from an impact,
+/// not from a load. An island with joints needs more substeps only while its bodies rotate.
 inline constexpr uint32_t k_few_calm_ticks = 8;
 
 /// Sets the number of substeps of each island, in `islands` and in the activities of its bodies. The number follows
 /// from the loads of the contacts and from Island::joint_need. It increases at once. Without joints, it decreases to
 /// the next lower entry of k_notches after k_calm_ticks, or after k_few_calm_ticks if half the number is enough. With
-/// joints, it decreases to the number that is needed, after k_few_calm_ticks. Impulses from a tick with another number
-/// of substeps are scaled.
+/// joints, it decreases to the number that is needed, after k_few_calm_ticks. The function scales contact
+/// impulses that were stored with another number of substeps.
 void choose_substeps(const StepSettings& settings, Span<const BodyProperties> properties, Span<const BodyWork> work,
                      Span<const uint32_t> bodies, Span<const ContactOrder> order, Span<Island> islands,
                      Span<ContactWork> contacts, Span<BodyActivity> activities);

@@ -69,7 +69,7 @@ inline constexpr uint64_t k_has_sliver = uint64_t{1} << 63;
 struct alignas(8) BodyWork {
   uint64_t colours;     ///< bit set of the colours of the body's contacts, and k_has_sliver
   uint32_t island;      ///< while islands are found: a link towards the island's first body; then the island's index
-  uint32_t run;         ///< as `island`, for the body's run: a chain of bodies that touch at most two others each
+  uint32_t run;         ///< as `island`, for the body's run: a chain of bodies with at most two contacts each
   uint32_t run_length;  ///< of the run's first body: number of bodies in the run
   uint32_t contacts;    ///< number of the body's contacts
   uint32_t supports;    ///< number of contacts that support it, while loads are estimated
@@ -86,7 +86,7 @@ struct alignas(8) BodyWork {
   Vec3<Real> displacement;  ///< since the start of the tick, m
   /// Sum of angular velocity x substep x 2^size_exponent since the start of the tick, m.
   Vec3<Real> rotation_vector;
-  Vec3<Real> angular_velocity;          ///< times 2^size_exponent, in units of 2^-k_angular_velocity_power m/s
+  Vec3<Real> angular_velocity;          ///< times 2^size_exponent, in units of 2^k_angular_velocity_power m/s
   Vec3<Real> push;          ///< velocity that gravity and forces add in a substep, m/s
   Vec3<Real> twist;         ///< angular momentum that torques add in a substep, m/s
   /// The velocity and the angular momentum that contacts added in this substep, m/s. In float these members are the

@@ -31,7 +31,7 @@ bool fail(const std::string& path, const std::string& problem, bool json) {
   return false;
 }
 
-/// The bytes of the source file. read() returns false, with a line on standard error, if there are none.
+/// The bytes of the source file. read() returns false, and prints a line to standard error, if it cannot read them.
 struct Source {
   std::vector<uint8_t> bytes;
   std::string_view text;

@@ -12,8 +12,8 @@ struct CookRequest {
   detent_cook::CookOptions options;
 };
 
-/// Reads the points, cooks them, writes the .hull and prints its description. On failure returns false, prints a line
-/// to standard error and leaves an existing output file unchanged.
+/// Reads the points, cooks them, writes the .hull and prints a description of it. On failure, returns false, prints a
+/// line to standard error, and leaves an existing output file unchanged.
 bool cook_file(const CookRequest& request, bool json);
 
 struct MeshRequest {

@@ -16,7 +16,7 @@ namespace {
 constexpr double k_one = 0x1p30;
 constexpr double k_coordinate_max = 0x1p31;  // m, the limit of world positions
 constexpr int k_exponent_min = -14, k_exponent_max = 15;
-// Steps: 2^-24 of the unit, the thickness that float rounding gives a flat cloud.
+// In steps of the grid: 2^-24 of the unit, which is the thickness that float rounding gives to a flat cloud.
 constexpr double k_depth_min = 64;
 constexpr int k_frame_passes = 4;  // the second pass already uses nearly the final axes
 constexpr uint32_t k_vertices_max = 255;
@@ -51,8 +51,8 @@ struct GridCloud {
   std::vector<Point> source{};
 };
 
-/// The cloud in the body's frame, in steps of 2^-30 of its unit: the least power of two above all coordinates after
-/// rounding.
+/// The cloud in the body's frame, in steps of 2^-30 of its unit of length. The unit is the least power of two above the
+/// distances of all points from the origin, after rounding.
 GridCloud to_grid(const std::vector<Point>& cloud, const Placement& placement) {
   std::vector<Point> local;
   double greatest = 0;
@@ -86,7 +86,7 @@ GridCloud to_grid(const std::vector<Point>& cloud, const Placement& placement) {
   return grid;
 }
 
-/// Leaves out every point within `weld` of a point kept before, in ascending order.
+/// Visits the points in ascending order, and leaves out every point within `weld` of a point that was kept before.
 std::vector<Point> welded(std::vector<Point> points, double weld) {
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
@@ -184,7 +184,7 @@ std::vector<Point> of_vertices(const GridCloud& grid, const ExactHull& hull) {
   return points;
 }
 
-/// Removes all points but the hull's vertices and numbers those from 0 on.
+/// Removes all points except the hull's vertices, and numbers the vertices from 0 on.
 void drop_others(Body& body) {
   std::vector<uint32_t> index(body.grid.points.size());
   std::vector<GridPoint> kept;

@@ -5,16 +5,16 @@
 #include <string>
 #include <vector>
 
-/// Cooking: converts a cloud of points to the bytes of a `.hull` (docs/hull.md). Runs on the host, which has floating
-/// point and allocation. The same bytes on every host, because it computes only with integers and with +, -, *, / and
-/// sqrt of doubles.
+/// Cooking: converts a cloud of points to the bytes of a `.hull` (docs/hull.md). Cooking runs on the host, which has
+/// floating point and allocation. It gives the same bytes on every host, because it computes only with integers and
+/// with +, -, *, / and sqrt of doubles.
 namespace detent_cook {
 
 using Point = std::array<double, 3>;  ///< m
 
 enum class Frame {
-  principal,  ///< a body's frame: origin at the centre of mass, principal axes
-  source,     ///< the points' frame: for queries; for a compound, the body's frame
+  principal,  ///< a body's frame: the origin is the centre of mass, the axes are the principal axes
+  source,     ///< the frame of the source points: for queries; in a compound, the body's frame
 };
 
 struct CookOptions {
@@ -22,7 +22,8 @@ struct CookOptions {
   /// m; a point this near to a kept point is left out. 0: only equal points are left out.
   double weld = 0;
   uint32_t vertex_limit = 255;  ///< 4 to 255
-  /// true: a hull of more vertices is reduced to the limit, with `error`; false: it is refused.
+  /// What happens to a hull of more than vertex_limit vertices. true: it is reduced to the limit (CookResult::error);
+  /// false: it is refused.
   bool reduce = true;
 };
 
@@ -31,9 +32,9 @@ struct CookResult {
   std::string reason{};          ///< why it is refused, in one line; empty if not
   uint32_t vertex_count = 0, face_count = 0, edge_count = 0;
   int32_t exponent = 0;                           ///< of the unit of length, 2^exponent m
-  bool reduced = false;                           ///< to the vertex limit
+  bool reduced = false;                           ///< the hull was reduced to the vertex limit
   double volume = 0;                              ///< m^3; relative error below 2^-44 for the stored vertices
-  Point centre{};                                 ///< m; of mass, in the source frame
+  Point centre{};                                 ///< m; centre of mass in the source frame
   std::array<double, 4> rotation = {0, 0, 0, 1};  ///< x, y, z, w: from the body to the source frame
   /// Inverse inertia per unit mass, unit^2 / (I / m), about each axis; 0 in the source frame.
   std::array<double, 3> inverse_inertia{};
@@ -41,15 +42,16 @@ struct CookResult {
   double error = 0;  ///< m; no point of the cloud lies further than this above any face's plane
 };
 
-/// The convex hull of the points, or the reason why there is none: fewer than four points, a coordinate that is not a
-/// number or beyond 2^31 m, all points equal, on a line or in a plane, a thickness below 2^-24 of the size, a size
-/// outside [2^-15, 2^15] m, too many vertices. The result does not depend on the points' order or on repeated points.
+/// Cooks the convex hull of the points, or gives the reason why it is refused: fewer than four points, a coordinate
+/// that is not a number or beyond 2^31 m, all points equal, on a line or in a plane, a thickness below 2^-24 of the
+/// size, a size outside [2^-15, 2^15] m, too many vertices. The result does not depend on the order of the points or on
+/// repeated points.
 ///
-/// Precision: a vertex is a point of the cloud, rounded in the body's frame to the nearest step of 2^-30 of the unit.
-/// Points less than a step outside the hull of the others may be left out. The centre of mass lies within a step of the
-/// body's origin, if the origin's doubles are precise enough. The products of inertia are below 2^-22 of the geometric
-/// mean of their moments, or the axes are within 2^-29 rad. The faces are flat within 2^-20 of the unit and within
-/// 2^-10 of the width, or within four steps.
+/// Precision: a *step* is 2^-30 of the unit of length. A vertex is a point of the cloud, rounded in the body's frame to
+/// the nearest step. Points less than a step outside the hull of the other points may be left out. The centre of mass
+/// lies within a step of the body's origin, if the origin's doubles are precise enough. Each product of inertia is
+/// below 2^-22 of the geometric mean of its two moments, or the axes are within 2^-29 rad. The faces are flat within
+/// 2^-20 of the unit and within 2^-10 of the width, or within four steps.
 CookResult cook_hull(const std::vector<Point>& points, const CookOptions& options = {});
 
 }  // namespace detent_cook

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double k_one = 0x1p30;
 constexpr double k_pi = 3.14159265358979323846;
-constexpr double k_inner_scale = 0.5;  ///< scale of a hull's inner hull about its centre of mass
+constexpr double k_inner_scale = 0.5;  ///< a hull's inner hull is the hull scaled by this about its centre of mass
 constexpr int k_exponent_min = -14, k_exponent_max = 15;
 
 /// Second moments about a centre, divided by the mass: xx, yy, zz, xy, yz, zx.

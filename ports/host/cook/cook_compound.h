@@ -19,17 +19,17 @@ struct CompoundResult {
   std::string reason{};          ///< why it is refused, in one line; empty if not
 };
 
-/// A compound of 1 to 64 parts, or the reason why there is none: a part that cook_hull() refuses, a radius or density
-/// that is not a positive number, a size outside [2^-15, 2^15] m.
+/// Cooks a compound of 1 to 64 parts, or gives the reason why it is refused: a part that cook_hull() refuses, a radius
+/// or a size outside [2^-15, 2^15] m (a hull may have the radius 0), a density outside [2^-20, 2^20] times the body's.
 ///
-/// Mass: each part counts in full, so the common volume of two parts counts twice. A rounded hull counts as its points
-/// grown by a cube of half size `radius` along the axes of the source, as for boxes elsewhere. Volume and inverse
-/// inertia have a relative error below 2^-28; products of inertia as in cook_hull(). In the source frame the body's
-/// centre of mass is the origin of the points, and its inertia is that of the parts about these axes, without the
-/// products.
+/// Mass: each part counts in full, so the common volume of two parts counts twice. A rounded hull counts as the hull of
+/// its points, each replaced by a cube of half side `radius` along the axes of the source, as for boxes elsewhere.
+/// Volume and inverse inertia have a relative error below 2^-28; products of inertia are as in cook_hull(). With
+/// Frame::source, the body's centre of mass is the origin of the points, and its inertia is that of the parts about the
+/// axes of the source, without the products of inertia.
 CompoundResult cook_compound(const std::vector<CompoundPart>& parts, Frame frame = Frame::principal);
 
-/// The corners of a box about `centre`, rotated by the quaternion x, y, z, w of any length but 0.
+/// The corners of a box about `centre`. `rotation`: a quaternion x, y, z, w of any length but 0.
 std::vector<Point> box_points(const Point& centre, const Point& half, const std::array<double, 4>& rotation);
 
 struct CompoundRead {

@@ -20,8 +20,8 @@ struct HeightFieldResult {
   double height_step = 0;        ///< m; of the grid of the heights
 };
 
-/// The cooked height field, or the reason why there is none: inconsistent sizes, more than 4096 cells along a side, an
-/// extent of more than 16 km. The same bytes on every host.
+/// Cooks a height field, or gives the reason why it is refused: inconsistent numbers of elements, more than 4096 cells
+/// along a side, an extent of more than 16 km. Gives the same bytes on every host.
 HeightFieldResult cook_height_field(const HeightFieldSource& source);
 
 }  // namespace detent_cook

@@ -69,7 +69,8 @@ void round_vertices(const MeshSource& source, GridMesh& mesh) {
   }
 }
 
-/// For each vertex, the vertex that replaces it: in ascending order, the least one kept before within `weld` steps.
+/// For each vertex, gives the vertex that replaces it. Visits the vertices in ascending order; a vertex is replaced by
+/// the least vertex within `weld` steps that was kept before.
 std::vector<uint32_t> welded_to(const std::vector<Vec32>& vertices, double weld) {
   std::vector<uint32_t> order(vertices.size());
   for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -114,7 +115,7 @@ std::vector<uint32_t> welded_to(const std::vector<Vec32>& vertices, double weld)
   return result;
 }
 
-/// Takes the faces except those without area and repetitions. `mesh.vertices` still contains unused vertices.
+/// Takes the faces, except faces without area and repeated faces. `mesh.vertices` still contains unused vertices.
 void take_faces(const MeshSource& source, const std::vector<uint32_t>& becomes, GridMesh& mesh, MeshResult& result) {
   std::map<std::array<uint32_t, 3>, bool> seen;
   for (const MeshSource::Triangle& triangle : source.triangles) {
@@ -152,7 +153,8 @@ void renumber(GridMesh& mesh) {
   mesh.vertices = used;
 }
 
-/// Orders the faces for the tree: each node's leaves are halved along the widest axis of the triangles' centres.
+/// Orders the faces for the tree. The triangles of each node are divided into halves along the axis on which their
+/// centres extend furthest.
 class Orderer {
  public:
   Orderer(GridMesh& mesh, const CookProgress& progress) : mesh_(mesh), progress_(progress) {
@@ -258,7 +260,7 @@ void put_triangles(const GridMesh& mesh, const detent::MeshView& view, Writer& w
   }
 }
 
-/// Writes the nodes from the leaves up; each node is read back for its parent.
+/// Writes the nodes from the leaves up. Each written node is read back to compute its parent.
 void put_nodes(const detent::MeshView& view, Writer& writer) {
   for (uint32_t level = 0; level < view.level_count; ++level) {
     for (uint32_t i = 0; i < view.level_size(level); ++i) {

@@ -4,7 +4,7 @@
 
 namespace detent_cook {
 
-/// The values of the header.
+/// The values in the header of a .hull.
 struct HullHeader {
   int32_t exponent = 0;
   bool principal = true;

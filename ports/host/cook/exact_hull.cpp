@@ -11,7 +11,8 @@ namespace {
 
 constexpr uint32_t k_none = ~uint32_t{0};
 
-/// A triangle's plane. The sign of a height is exact; its size is the volume of a parallelepiped, below 2^94.
+/// A triangle's plane. The sign of a point's height above the plane is exact. The magnitude of a height is the volume
+/// of a parallelepiped, below 2^94.
 struct Plane {
   std::array<int64_t, 3> normal;
   Int128 offset;
@@ -38,7 +39,7 @@ struct Face {
   Triangle vertex;
   std::array<uint32_t, 3> across;  ///< the face beyond the edge from vertex k to vertex k + 1
   Plane plane;
-  std::vector<uint32_t> outside{};  ///< points above this face, each on the list of one face
+  std::vector<uint32_t> outside{};  ///< points above this face; each point is in the list of one face
   uint32_t furthest = k_none;
   double distance = 0;  ///< of the furthest point
   bool alive = true;
@@ -208,8 +209,8 @@ std::vector<uint32_t> vertices_of(const std::vector<Triangle>& triangles) {
   return vertices;
 }
 
-/// The vertices that touch three or more planes. The others lie inside a face or an edge, where equally distant points
-/// were inserted.
+/// The vertices that touch three or more planes. The other vertices lie inside a face or an edge; they were inserted
+/// because they were as far outside as the corners of that face or edge.
 std::vector<uint32_t> extreme_vertices(const std::vector<GridPoint>& points, const std::vector<Triangle>& triangles) {
   std::vector<std::vector<uint32_t>> around(points.size());
   for (uint32_t i = 0; i < triangles.size(); ++i) {
@@ -257,7 +258,7 @@ ExactHull exact_hull(const std::vector<GridPoint>& points, uint32_t vertex_limit
   const std::vector<uint32_t> extreme = extreme_vertices(points, hull.triangles);
   if (extreme.size() == hull.vertices.size()) return hull;
 
-  // Repeats the hull with the extreme vertices only; each of them must be inserted.
+  // Builds the hull again from the extreme vertices only; each of them must be inserted.
   std::vector<GridPoint> kept;
   for (const uint32_t vertex : extreme) kept.push_back(points[vertex]);
   ExactHull smaller = exact_hull(kept, ~uint32_t{0});

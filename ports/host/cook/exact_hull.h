@@ -6,7 +6,7 @@
 
 namespace detent_cook {
 
-/// A point of the grid of a hull's vertices. Each coordinate is at most 2^30 from the origin.
+/// A point of the grid of a hull's vertices. The magnitude of each coordinate is at most 2^30.
 struct GridPoint {
   int32_t x, y, z;
   friend auto operator<=>(const GridPoint&, const GridPoint&) = default;
@@ -20,8 +20,8 @@ enum class Span { point, line, plane, solid };
 
 struct ExactHull {
   Span span = Span::point;
-  bool reduced = false;  ///< the limit left some points outside
-  /// The boundary, triangulated: 2 V - 4 triangles. Each vertex is extreme: it touches three or more planes.
+  bool reduced = false;  ///< some points lie outside the hull because of the vertex limit
+  /// The boundary as 2 V - 4 triangles, for V vertices. Each vertex is extreme: it touches three or more planes.
   std::vector<Triangle> triangles{};
   std::vector<uint32_t> vertices{};  ///< ascending indices of points
 };
@@ -29,13 +29,14 @@ struct ExactHull {
 /// Twice the area of the triangle, times its outward normal: (b - a) x (c - a). Exact: each component is below 2^62.
 std::array<int64_t, 3> area_normal(const GridPoint& a, const GridPoint& b, const GridPoint& c);
 
-/// Convex hull in integers, without rounding: the same on every machine. The points are distinct and ascending, so the
-/// order of the cloud does not matter. Inserts the point that lies furthest outside, until none does or the limit is
-/// reached. Source: Barber, Dobkin, Huhdanpaa, The Quickhull Algorithm for Convex Hulls, 1996.
+/// Computes the convex hull in integers, without rounding, so the result is the same on every machine. The points must
+/// be distinct and ascending, so that the order of the cloud does not matter. Inserts the point that lies furthest
+/// outside, again and again, until no point lies outside or the limit is reached. Source: Barber, Dobkin, Huhdanpaa,
+/// The Quickhull Algorithm for Convex Hulls, 1996.
 ExactHull exact_hull(const std::vector<GridPoint>& points, uint32_t vertex_limit);
 
-/// The least depth, over the triangles' planes, of the deepest point below the plane. It is an upper bound of the
-/// width, at most a few times the width. In steps of the grid.
+/// For each triangle's plane, takes the depth of the deepest point below the plane. Returns the least of these depths,
+/// in steps of the grid. It is an upper bound of the hull's width, and at most a few times the width.
 double least_depth(const std::vector<GridPoint>& points, const ExactHull& hull);
 
 }  // namespace detent_cook

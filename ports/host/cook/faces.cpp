@@ -78,7 +78,7 @@ bool is_flat_and_convex(const std::vector<GridPoint>& points, const PolygonFace&
 }
 
 struct Seam {
-  double bend;  ///< the greater depth of a triangle's free corner below the other's plane
+  double bend;  ///< depth of each triangle's free corner below the other's plane: the greater
   Side side;
   uint32_t left, right;
 };
@@ -90,7 +90,7 @@ std::vector<Seam> seams_of(const std::vector<GridPoint>& points, const ExactHull
     const Triangle& t = hull.triangles[i];
     for (uint32_t k = 0; k < 3; ++k) owner[{t[k], t[(k + 1) % 3]}] = i;
   }
-  const auto depth = [&](uint32_t under, uint32_t of) {  // of the corner of `of` that `under` lacks
+  const auto depth = [&](uint32_t under, uint32_t of) {  // of the corner of triangle `of` that `under` does not have
     const Triangle& t = hull.triangles[under];
     const auto normal = area_normal(points[t[0]], points[t[1]], points[t[2]]);
     std::array<double, 3> n;

@@ -5,8 +5,8 @@ namespace detent_cook {
 
 using detent::Int128;
 
-/// Converts each part exactly, so that only the sums round: some compilers' conversion of a 64-bit unsigned integer
-/// rounds twice. Relative error below 2^-52.
+/// Converts an Int128. Converts each part exactly, so that only the sums round, because the conversion of a 64-bit
+/// unsigned integer rounds twice with some compilers. Relative error below 2^-52.
 inline double to_double(Int128 value) {
   const detent::Words128 words = detent::magnitude_128(value);
   const double high = static_cast<double>(static_cast<uint32_t>(words.high >> 32)) * 0x1p96 +

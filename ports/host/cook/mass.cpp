@@ -61,7 +61,7 @@ Matrix principal_axes(const std::array<double, 6>& second) {
   Matrix a = {
       {{second[0], second[3], second[5]}, {second[3], second[1], second[4]}, {second[5], second[4], second[2]}}};
   Matrix axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  constexpr int k_sweeps_max = 32;  // it converges quadratically, in 5 or so
+  constexpr int k_sweeps_max = 32;  // Jacobi's method converges quadratically, in about 5 sweeps
   constexpr size_t k_planes[3][2] = {{0, 1}, {1, 2}, {0, 2}};
   bool turned = true;
   for (int sweep = 0; sweep < k_sweeps_max && turned; ++sweep) {

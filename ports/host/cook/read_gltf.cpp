@@ -56,8 +56,8 @@ class Reader {
  public:
   explicit Reader(const tinygltf::Model& model) : model_(model), added_(model.nodes.size()) {}
 
-  /// Adds each node once, as glTF requires: with shared nodes a small file could create more triangles than fit in
-  /// memory.
+  /// Adds a node, but each node only once. glTF does not permit shared nodes; with them a small file could create more
+  /// triangles than fit in memory.
   void add_node(int index, const Transform& parent, int depth) {
     if (index < 0 || static_cast<size_t>(index) >= model_.nodes.size() || depth > k_depth_max) {
       return fail("a node that is missing, or too deep");

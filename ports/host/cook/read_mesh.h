@@ -7,7 +7,7 @@
 
 namespace detent_cook {
 
-/// The largest number of vertices read, and of triangles, including those that cooking leaves out.
+/// The largest number of vertices that are read, and of triangles, including those that cooking leaves out later.
 inline constexpr size_t k_mesh_source_max = size_t{1} << 24;
 
 struct MeshRead {
@@ -20,9 +20,9 @@ struct MeshRead {
 /// materials of `usemtl` are numbered from 0 in the order of their first use. Skips all other lines.
 MeshRead read_obj_mesh(std::string_view text, const CookProgress& progress = {});
 
-/// Reads all triangles of a glTF's scene (the default one; all nodes if there is none), placed by the nodes. `path`:
-/// the file of `bytes`; its buffers may be files beside it. Materials keep their numbers. Not in every build: see
-/// k_reads_gltf.
+/// Reads all triangles of a scene of a glTF: of the default scene, else of the first scene, else of all nodes. The
+/// nodes place the triangles. `path`: path of the file with these `bytes`; its buffers may be files in the same folder.
+/// Materials keep their numbers. Not every build reads glTF: see k_reads_gltf.
 MeshRead read_gltf_mesh(const std::string& path, std::string_view bytes);
 extern const bool k_reads_gltf;
 

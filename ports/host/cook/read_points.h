@@ -10,7 +10,7 @@ struct PointsRead {
   std::string problem{};  ///< one line, with the line number if known; empty if there is none
 };
 
-/// Takes the three numbers of an OBJ vertex off its line. Returns the problem; empty if none.
+/// Reads the three numbers of an OBJ vertex, and removes them from the line. Returns the problem; empty if none.
 std::string read_vertex(std::string_view& line, Point& point);
 
 /// Reads the vertices of a Wavefront OBJ: lines of `v` and three or more numbers. Skips all other lines.

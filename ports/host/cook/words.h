@@ -36,7 +36,7 @@ inline bool number_from(std::string_view word, double& value) {
   return error == std::errc() && end == word.data() + word.size() && isfinite(value);
 }
 
-/// Reads an OBJ's vertex number: from 1 on, or backwards from -1. Ignores text from a slash on.
+/// Reads the number of a vertex in an OBJ: counted from 1, or backwards from -1. Ignores the text from a slash on.
 inline bool index_from(std::string_view word, size_t vertex_count, uint32_t& index) {
   word = word.substr(0, word.find('/'));
   int64_t number = 0;

@@ -8,7 +8,7 @@
 
 namespace detent_cook {
 
-/// A block of zeros that is filled in, little-endian.
+/// A block of bytes, at first zeros, into which values are written, little-endian.
 class Writer {
  public:
   explicit Writer(uint32_t byte_count) : bytes_(byte_count) {}
@@ -22,7 +22,7 @@ class Writer {
     for (uint32_t k = 0; k < 8; ++k) put(k, magic[k]);
     put(detent::k_cooked_version_at, version);
   }
-  /// Writes a 31-bit mantissa and an exponent, rounded to nearest; zeros for 0.
+  /// Writes `value` as a 31-bit mantissa, rounded to nearest, and an exponent. For the value 0, writes zeros.
   void put_scaled(uint32_t at, double value) {
     if (value == 0) return;
     int exponent = 0;
@@ -34,7 +34,7 @@ class Writer {
     put(at, static_cast<int32_t>(mantissa));
     put(at + 4, int32_t{exponent - 31});
   }
-  /// Adds the number of all bytes and their checksum, as in every cooked format.
+  /// Writes the number of all bytes and their checksum, as in every cooked format.
   std::vector<uint8_t>& sealed() {
     const uint32_t count = static_cast<uint32_t>(bytes_.size());
     put(detent::k_cooked_byte_count_at, count);

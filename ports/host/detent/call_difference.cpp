@@ -16,7 +16,7 @@ class FieldList final : public Archive {
   struct Item {
     std::string name;
     WordKind kind;
-    std::vector<uint8_t> bytes;  ///< a scaled number's include its exponent
+    std::vector<uint8_t> bytes;  ///< of a Scaled: mantissa and exponent
   };
   FieldList(const uint8_t* bytes, uint32_t count) : Archive(k_operations), bytes_(bytes), count_(count) {}
   std::vector<Item> items;
@@ -42,7 +42,7 @@ class FieldList final : public Archive {
   bool mantissa_ = false;  ///< the last word was a mantissa
 };
 
-/// Adds component suffixes: the components of a vector or rotation have the same name.
+/// Adds a suffix to the name of each component of a vector or rotation, because all components have the same name.
 void name_components(std::vector<FieldList::Item>& items) {
   constexpr const char* k_components[] = {".x", ".y", ".z", ".w"};
   for (size_t first = 0; first < items.size();) {
@@ -113,7 +113,8 @@ bool find_call_difference(const CallRecords& a, const CallRecords& b, CallDiffer
   while (i < a.size() && i < b.size() && a[i] == b[i]) ++i;
   if (i == a.size() && i == b.size()) return false;
   difference.index = static_cast<uint32_t>(i + 1);
-  // If one side omits or adds a call, its next call equals this call of the other side, or it has no further call.
+  // One side has an additional call i if the other side has no call i, or if the other side has fewer calls and its
+  // call i equals the next call of the first side.
   const bool only_a = i < a.size() && (i == b.size() || (a.size() > b.size() && a[i + 1] == b[i]));
   const bool only_b = i < b.size() && (i == a.size() || (b.size() > a.size() && b[i + 1] == a[i]));
   if (!only_b) difference.a = name_of(a[i]);

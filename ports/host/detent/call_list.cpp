@@ -41,7 +41,7 @@ struct CallCollector {
   }
 };
 
-/// Reads the ticks. Returns why they end before the end of the recording; empty if they do not.
+/// Reads the ticks. Returns why the reading stopped before the end of the recording; empty if it reached the end.
 std::string collect_calls(Player& player, Input& input, CallCollector& collector) {
   const ReplayWatch watch = {
       &collector,

@@ -5,39 +5,39 @@
 #include "reading.h"
 #include "recorded.h"
 
-/// The calls of a recording as a list, of which any part can be played (call_player.h).
+/// The calls of a recording as a list. Any part of the list can be played (call_player.h).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The bodies and joints that a recording names, as their ids in the recording, and each one's id in another world.
+/// Maps the ids of bodies and joints in a recording to their ids in another world.
 struct IdMap {
   std::map<BodyId, BodyId> bodies;
   std::map<JointId, JointId> joints;
 };
 
-/// The bodies and joints that a recording has at any time.
+/// The ids of all bodies and joints that exist in a recording at some time.
 struct RecordedIds {
   std::set<BodyId> bodies;
   std::set<JointId> joints;
 };
 
-/// A call, as the record that a ReplayWatch gets.
+/// A call. Its bytes are a record as passed to ReplayWatch::called.
 struct ListedCall {
   uint64_t tick = 0;  ///< ticks completed before the call
-  size_t at = 0;      ///< into CallList::records
+  size_t at = 0;      ///< index of the first byte in CallList::records
   uint32_t count = 0;
 };
 
 enum class UnitKind : uint32_t { body, joint, call };
 
-/// What happens after a state: calls and ticks. Its units, which can be left out, are numbered: the bodies of the
-/// state, its joints, then the calls. A call that creates a body or joint is a unit of that kind. Queries change
-/// nothing: they are not in the list.
+/// A state, and the calls and ticks that follow it. The list consists of units that can be left out. They are numbered:
+/// first the bodies of the state, then its joints, then the calls. A call that creates a body or joint counts as a unit
+/// of that kind (kind_of()). Queries are not in the list, because they change nothing.
 struct CallList {
   std::vector<uint64_t> seed;  ///< the state: a snapshot
   uint32_t seed_bytes = 0;
   uint64_t first = 0, last = 0;  ///< ticks completed at the start and at the end
-  IdMap ids;                     ///< of the state's bodies and joints, in the snapshot
+  IdMap ids;                     ///< from the recording to the snapshot, for the state's bodies and joints
   std::vector<ListedCall> calls;
   std::shared_ptr<const std::vector<uint8_t>> records;
   std::shared_ptr<const RecordedIds> recorded;
@@ -53,14 +53,14 @@ struct CallList {
 Status save_seed(const World& world, CallList& list);
 
 struct CallReading {
-  std::string problem;        ///< there is no list; empty: none
+  std::string problem;        ///< why there is no list; empty: there is one
   std::string damage;         ///< why the list ends before the recording does; empty: it does not
   bool other_config = false;  ///< the problem is another configuration
   Capacity capacity = {};
   CallList list;
-  ReplayWorld world;  ///< for the list
+  ReplayWorld world;  ///< a world in which the list can be played
 };
-/// Reads a recording, up to its end or its first damage.
+/// Reads a recording up to its end or to its first damage.
 void read_calls(const detent_tool::Recorded& recorded, const detent_tool::Assets& assets, CallReading& reading);
 
 }  // namespace DETENT_NAMESPACE

@@ -14,7 +14,8 @@ using namespace detent_tool;
 
 namespace {
 
-/// Replaces a recorded id. False if it names something that is left out. An id that never named anything stays.
+/// Replaces a recorded id. Returns false if it names a body or joint that is left out. An id that never named anything
+/// stays.
 template <class Id>
 bool replace_id(const std::map<Id, Id>& ids, const std::set<Id>& recorded, Id& id) {
   const auto found = ids.find(id);
@@ -23,7 +24,8 @@ bool replace_id(const std::map<Id, Id>& ids, const std::set<Id>& recorded, Id& i
   return true;
 }
 
-/// Takes over the ids that are valid; the others name nothing from now on.
+/// Copies the ids that are valid in the world, and removes the others from the recorded ids: they name nothing from now
+/// on.
 template <class Id>
 void take_valid_ids(const World& world, const std::map<Id, Id>& ids, std::map<Id, Id>& valid, std::set<Id>& recorded) {
   for (const auto& [id, given] : ids) {
@@ -70,7 +72,7 @@ bool CallPlayer::start(const Units& units) {
   return true;
 }
 
-/// Replaces the recorded ids in a command. False if it is about something that is left out.
+/// Replaces the recorded ids in a command. Returns false if the command is about a body or joint that is left out.
 bool CallPlayer::replace_ids(uint8_t tag, void* command) const {
   const auto replace_body = [this](BodyId& id) { return replace_id(ids_.bodies, list_.recorded->bodies, id); };
   switch (static_cast<RecordTag>(tag)) {
@@ -132,7 +134,8 @@ void CallPlayer::make_calls(Recorder& recorder, uint64_t tick, PlayedUnits& play
   }
 }
 
-/// Notes a tick after which a shorter recording may start, and forgets those that it makes useless.
+/// Notes a tick after which a shorter recording may start, and forgets earlier ticks if a later one leaves enough
+/// ticks.
 void CallPlayer::add_start(uint64_t tick) {
   starts_.push_back(tick);
   while (starts_.size() > 1 && starts_[1] + kept_ticks <= tick) starts_.pop_front();
@@ -178,7 +181,7 @@ PlayedUnits CallPlayer::play(const Units& units, RecordingBytes* recording) {
   return played;
 }
 
-/// Ends the recording: a call whose refusal is the fault comes last.
+/// Ends the recording. If the fault is the refusal of a call, this call is the last record.
 void CallPlayer::finish(Recorder& recorder, RecordingBytes* recording, const PlayedUnits& played) {
   if (recording == nullptr) return;
   if (refused_.empty()) {

@@ -9,34 +9,35 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// What came of playing some units of a list.
+/// The result of playing some units of a list.
 struct PlayedUnits {
   std::string fault;                         ///< the first fault; empty: none
-  uint64_t tick = 0;                         ///< completed when it was found
-  detent_tool::Units used;                   ///< the units that had an effect before
+  uint64_t tick = 0;                         ///< ticks completed when the fault was found
+  detent_tool::Units used;                   ///< the units that had an effect before the fault
   uint64_t start = 0;                        ///< the last tick after which a shorter recording may start
-  detent_tool::ShrinkSize size;              ///< except for bytes
-  CapacityUse use;                           ///< of the steps
+  detent_tool::ShrinkSize size;              ///< without `bytes`
+  CapacityUse use;                           ///< of the played steps
   uint32_t body_slots = 0, joint_slots = 0;  ///< slots used at any time
   uint64_t digest = 0;                       ///< of the state at the end
 
   bool shows() const { return !fault.empty(); }
 };
 
-/// Plays any units of a list. A call about a body or joint that is left out is left out, too, and so is a call that the
-/// world refuses. Bodies get other ids than in the recording: the ids in the calls are replaced.
+/// Plays any units of a list. If a body or joint is left out, the calls about it are left out, too, and so are calls
+/// that the world refuses. Bodies get other ids than in the recording, so the player replaces the ids in the calls.
 class CallPlayer {
  public:
   CallPlayer(const CallList& list, World& world, Fault& fault) : list_(list), world_(world), fault_(fault) {}
 
-  /// Plays up to the first fault, or to the end of the list. `recording`: takes the recording; null: none is made.
+  /// Plays up to the first fault, or to the end of the list. `recording`: receives a recording; null: no
+  /// recording is written.
   PlayedUnits play(const detent_tool::Units& units, RecordingBytes* recording = nullptr);
-  /// Plays up to a tick, and lists what follows: the state then, and the calls of these units after it. Returns false
-  /// if the state cannot be saved.
+  /// Plays up to a tick. Sets `later` to the list from there on: the state at that tick, and the later calls among
+  /// `units`. Returns false if a fault occurs before that tick, or if the state cannot be loaded or saved.
   bool list_from(const detent_tool::Units& units, uint64_t tick, CallList& later);
 
-  const detent_tool::Progress* progress = nullptr;  ///< of play(), in ticks; null: not told
-  uint64_t kept_ticks = 0;                          ///< from PlayedUnits::start to the fault, at least
+  const detent_tool::Progress* progress = nullptr;  ///< called by play() with numbers of ticks; null: not called
+  uint64_t kept_ticks = 0;                          ///< least number of ticks from PlayedUnits::start to the fault
 
  private:
   enum class Made : uint32_t { left_out, refused, good };
@@ -53,9 +54,9 @@ class CallPlayer {
   World& world_;
   Fault& fault_;
   IdMap ids_;
-  std::deque<uint64_t> starts_;   ///< clean ticks of which one can be PlayedUnits::start
+  std::deque<uint64_t> starts_;   ///< ticks from which PlayedUnits::start is chosen
   std::vector<uint32_t> calls_;   ///< the units that are calls
-  size_t next_ = 0;               ///< into calls_
+  size_t next_ = 0;               ///< index of the next call in calls_
   std::vector<uint8_t> refused_;  ///< the record of the call whose refusal is the fault
 };
 

@@ -13,14 +13,14 @@ using namespace detent_tool;
 
 namespace {
 
-constexpr uint64_t k_ticks_traced_max = 64;  ///< when searching for a difference
+constexpr uint64_t k_ticks_traced_max = 64;  ///< most ticks that are traced in the search for a difference
 
 void no_progress(uint64_t, uint64_t) {}
 
 /// One side of the comparison.
 struct Side {
   Recorded recorded;
-  bool here = false;  ///< this machine computes its states
+  bool here = false;  ///< the states of this side are those that this machine computes
 };
 
 /// The result of reading both sides in parallel.
@@ -140,8 +140,8 @@ bool compare_seeds(const Side& a, const Side& b, const Assets& assets, Differenc
   return true;
 }
 
-/// Replaces the side by a trace of these ticks that this machine computes. False, and the side is unchanged, if the
-/// trace may not be the recording's.
+/// Replaces the side by a trace of these ticks that this machine computes. If this machine's states may not be those of
+/// the recording, returns false and leaves the side unchanged.
 bool trace_here(Side& side, uint64_t from, uint64_t to, const Assets& assets) {
   auto bytes = std::make_shared<std::vector<uint8_t>>();
   const auto keep = [](void* context, const uint8_t* piece, uint32_t count) {
@@ -175,7 +175,7 @@ void narrow(const Side& a, const Side& b, const Assets& assets, Survey& survey) 
   survey.a = survey.b = {};
 }
 
-/// The state of a side that has a keyframe at this tick.
+/// The state of a side at this tick, as a trace; empty if the side has no keyframe at this tick.
 TickTrace keyframe_at(const Side& side, uint64_t tick, const Assets& assets) {
   TickTrace trace;
   std::string problem;
@@ -208,7 +208,7 @@ void want_trace(const Side& side, const Survey& survey, Difference& difference) 
 void explain_states(Side a, Side b, const Assets& assets, Survey& survey) {
   if (!survey.traced && survey.tick - survey.equal_to > 1) narrow(a, b, assets, survey);
   uint64_t from = survey.equal_to + 1, to = survey.tick;
-  if (to - from > 1) {  // as far as the other side has traces
+  if (to - from > 1) {  // if only one side has traces, the window is that of its traces
     for (const int other : {0, 1}) {
       if (survey.first_traced[other] == 0 || survey.first_traced[1 - other] != 0) continue;
       from = survey.first_traced[other];
@@ -271,7 +271,7 @@ Difference compare(const Side& a, const Side& b, const Assets& assets) {
   if (survey.states_differ || calls_differ) {
     if (survey.states_differ && calls_differ && survey.found.calls[0].tick > survey.equal_to &&
         survey.found.calls[0].tick < survey.tick) {
-      survey.tick = survey.found.calls[0].tick;  // digests are sparse: the difference begins here
+      survey.tick = survey.found.calls[0].tick;  // not every tick has a digest: the difference begins with this call
       survey.equal_to = survey.tick - 1;
       survey.a = survey.b = {};
     }

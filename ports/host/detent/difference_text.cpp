@@ -38,7 +38,8 @@ std::string name_of(const ElementName& element) {
   return name;
 }
 
-/// Values of the work space have their table's name, because fields of the state may have the same name.
+/// The name of the field. For values of the work space, it includes the name of the table, because a field of the state
+/// may have the same name.
 std::string place_of(const FieldDifference& field) {
   const bool work =
       field.part == "contact work" || field.part == "body work" || field.part == "sweep" || field.part == "bounds";

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-/// The tool's interface to one math configuration. The implementation is compiled once for each configuration. Nothing
-/// here depends on a configuration, so the program can contain all four and select the one that a recording's header
-/// names.
+/// The tool's interface to the library in one configuration. The implementation is compiled once for each
+/// configuration. The types in this header do not depend on the configuration, so the program can contain all four
+/// implementations and select the one that a recording's header names.
 namespace detent_tool {
 
 struct SceneLine {
@@ -37,16 +37,16 @@ enum class Verdict : uint32_t {
   good,
   /// Valid as far as it was read, but of another simulation version, configuration or format.
   refused,
-  bad,  ///< damaged, unreadable, or the replay differs
+  bad,  ///< damaged or unreadable, or the replay differs from the recording
 };
 
 /// The result for one file.
 struct Outcome {
   Verdict verdict = Verdict::good;
   std::string problem;          ///< one line, without the file's name: empty if good
-  std::string status;           ///< the library's text for the problem
+  std::string status;           ///< the library's text for the status of the problem
   std::string field;            ///< the faulty field
-  uint64_t offset = 0;          ///< of the fault in the file, bytes
+  uint64_t offset = 0;          ///< of the fault in the file, bytes from the start
   uint64_t tick = 0;            ///< completed ticks at the fault
   uint64_t first_bad_tick = 0;  ///< the first tick that may be wrong
   bool digests_differ = false;  ///< the recorded and the computed digest after a tick differ
@@ -55,19 +55,19 @@ struct Outcome {
   std::string lost;             ///< the damage of a recovered recording, in the form of `problem`
 
   bool header_known = false;
-  bool other_config = false;  ///< refused for its configuration: another engine may read it
+  bool other_config = false;  ///< refused for its configuration: its engine may read it
   Header header;
   uint64_t file_bytes = 0;
-  uint64_t ticks = 0;    ///< computed or read
-  uint64_t digests = 0;  ///< of ticks: compared and equal, read, or written
-  uint64_t calls = 0;    ///< except steps
+  uint64_t ticks = 0;    ///< number of ticks computed or read
+  uint64_t digests = 0;  ///< number of ticks whose digests were equal, or were read or written
+  uint64_t calls = 0;    ///< number of calls without steps
   uint64_t digest = 0;   ///< of the final state
   double seconds = 0;
-  /// The tool of another simulation version that produced this outcome; empty: this tool.
+  /// The path of the tool of another simulation version that produced this outcome; empty: this tool produced it.
   std::string release;
 };
 
-/// Called from time to time during long work.
+/// Called from time to time during long work, with the amount done and the total.
 using Progress = std::function<void(uint64_t done, uint64_t total)>;
 
 struct RecordRequest {
@@ -90,7 +90,7 @@ enum class FileKind : uint32_t {
   height_field
 };  // all kinds from hull on are cooked files
 inline constexpr uint32_t k_file_kind_bytes = 8;
-/// The message for a file of the wrong kind: "is a cooked hull, not " and `wanted`.
+/// The message for a file of the wrong kind, for example "is a cooked hull, not " and `wanted`.
 inline std::string is_not(FileKind kind, const std::string& wanted) {
   constexpr const char* k_texts[] = {
       "", "a recording", "a snapshot", "a cooked hull", "a cooked compound", "a cooked mesh", "a cooked height field"};
@@ -105,7 +105,7 @@ struct AssetBytes {
   FileKind kind = FileKind::other;
 };
 using Assets = std::vector<AssetBytes>;
-/// Reads a cooked file. Returns the problem, also for a file that is not cooked; empty if none.
+/// Reads a cooked file. Returns the problem, empty if none. A file of another kind is a problem.
 std::string read_asset(const std::string& path, AssetBytes& asset);
 
 struct ObjectInfo;
@@ -117,7 +117,7 @@ struct RunRequest;
 struct ReadRequest {
   std::string path;
   Assets assets = {};  ///< of the recorded world; empty: the assets of the built-in scenes
-  uint64_t from = 0;   ///< the seed's tick if that is later
+  uint64_t from = 0;   ///< if the seed's tick is later, the seed's tick
   uint64_t to = UINT64_MAX;
 };
 
@@ -128,7 +128,7 @@ struct DiffRequest {
 };
 
 struct TraceRequest {
-  ReadRequest reading = {};  ///< the window: from and to are completed ticks
+  ReadRequest reading = {};  ///< the window of ticks: from `from` to `to`, numbers of completed ticks
   std::string output;
   bool full = true;
 };
@@ -137,7 +137,7 @@ struct Difference;
 struct ShrinkRequest;
 struct Shrunk;
 
-/// A body's state: m, m/s, rad/s, world frame.
+/// A body's state in the world frame. Units: m, m/s, rad/s.
 struct BodyLine {
   uint32_t slot = 0;
   uint32_t generation = 0;
@@ -157,15 +157,15 @@ struct Engine {
   std::vector<SceneLine> (*scenes)();
   Outcome (*record)(const RecordRequest& request, const Progress& progress);
   Outcome (*verify)(const ReadRequest& request, const Progress& progress);
-  /// Reads without a world.
+  /// Reads the recording without a world: does not simulate.
   Outcome (*info)(const ReadRequest& request, const Progress& progress);
-  /// The bodies after `request.to` ticks.
+  /// Gives the states of the bodies after `request.to` ticks.
   Outcome (*state)(const ReadRequest& request, std::vector<BodyLine>& bodies);
-  /// Writes the intact part of a recording, with an end, to `path`.
+  /// Writes the intact part of a damaged recording to `path`, and completes it with an end.
   Outcome (*recover)(const ReadRequest& request, const std::string& path, const Progress& progress);
   /// Finds the first difference of two recordings.
   Difference (*diff)(const DiffRequest& request);
-  /// Finds the difference of a recording and this machine, whose digests first differ after `tick` ticks.
+  /// Finds the difference of a recording and its replay on this machine. Their digests first differ after `tick` ticks.
   Difference (*explain)(const ReadRequest& request, uint64_t tick);
   /// Writes a recording of the same calls with traces of this machine's states.
   Outcome (*trace)(const TraceRequest& request, const Progress& progress);
@@ -182,9 +182,9 @@ struct Engine {
 /// The engines of this build, in the order fx64, fx32, f32, f64.
 const std::vector<Engine>& engines();
 
-/// `bytes`: all bytes of a file, or the first ones.
+/// Determines the kind of a file. `bytes`: all bytes of the file, or its first bytes.
 FileKind kind_of(const std::vector<uint8_t>& bytes);
-/// Also `other` for a file that cannot be read.
+/// Determines the kind of a file: `other` if the file cannot be read.
 FileKind kind_of_file(const std::string& path);
 
 }  // namespace detent_tool

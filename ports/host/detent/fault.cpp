@@ -11,7 +11,7 @@ using namespace detent_tool;
 
 namespace {
 
-/// A counter of the report is not 0; of a settled fault, the same counter.
+/// The fault that a counter of the report is not 0. When settled, only the same counter counts.
 class LostFault : public Fault {
  public:
   std::string after_step(const World&, const StepReport& report, bool&) override {
@@ -32,7 +32,7 @@ class LostFault : public Fault {
   bool settled_ = false;
 };
 
-/// A call is refused; of a settled fault, the same call with the same status.
+/// The fault that a call is refused. When settled, only the same call with the same status counts.
 class StatusFault : public Fault {
  public:
   std::string after_step(const World&, const StepReport&, bool&) override { return {}; }

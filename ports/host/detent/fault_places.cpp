@@ -12,7 +12,7 @@ inline namespace DETENT_NAMESPACE {
 
 namespace {
 
-/// A recording starts only from states with less than this share of the bound.
+/// A recording starts only from states in which the fault has at most this share of its bound.
 constexpr double k_clean_share = 0.5;
 
 struct BodyInertia {
@@ -33,7 +33,7 @@ BodyInertia inertia_of_body(const World& world, BodyId id) {
   return {scaled_to_host(mass), moments[0], moments[1], moments[2]};
 }
 
-/// Two bodies overlap by more than a part of the thickness of the thinner dynamic one.
+/// The fault that two bodies overlap by more than a fraction of the thickness of the thinner dynamic body.
 class DepthFault : public Fault {
  public:
   explicit DepthFault(double bound) : bound_(bound) {}
@@ -75,8 +75,8 @@ struct HostVector {
 double dot_of(const HostVector& a, const HostVector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 HostVector host_vector(const Vec3<Real>& v) { return {real_to_host(v.x), real_to_host(v.y), real_to_host(v.z)}; }
 
-/// How far the joint's anchors are apart against its type, m: without the part along a sliding axis; of a distance
-/// joint, the part beyond its limits.
+/// The distance of the joint's anchors that its type does not permit, m: without the part along a sliding axis; for a
+/// distance joint, only the part beyond its limits.
 double gap_of_joint(const World& world, const JointDef& def) {
   Pose a, b;
   if (get_pose(world, def.a, a) != Status::ok || get_pose(world, def.b, b) != Status::ok) return 0;
@@ -98,7 +98,7 @@ double gap_of_joint(const World& world, const JointDef& def) {
   return std::max({0.0, real_to_host(def.axis.lower) - apart, apart - real_to_host(def.axis.upper)});
 }
 
-/// The anchors of a joint are apart by more than a part of the size of the smaller dynamic body.
+/// The fault that the anchors of a joint are apart by more than a fraction of the size of the smaller dynamic body.
 class GapFault : public Fault {
  public:
   explicit GapFault(double bound) : bound_(bound) {}

@@ -13,7 +13,8 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr uint32_t k_passed_max = 64;
-/// A recording starts only from states in which no body is deeper in a fixed one, as a part of its thickness.
+/// A recording starts only from states in which no dynamic body is deeper in a fixed body than this fraction of its own
+/// thickness.
 constexpr double k_sunk_start = 0.25;
 
 bool is_of_type(const World& world, BodyId id, BodyType wanted) {
@@ -35,7 +36,7 @@ bool may_touch(const World& world, BodyId a, BodyId b) {
   return true;
 }
 
-/// Whether the body's centre is within its own shape: that of a ring is not.
+/// Whether the body's centre is within the body's own shape. The centre of a ring, for example, is not.
 bool contains_own_centre(const World& world, BodyId id, const Position& centre) {
   QueryHit hits[k_passed_max];
   QueryReport report;
@@ -48,7 +49,7 @@ bool contains_own_centre(const World& world, BodyId id, const Position& centre) 
   return std::any_of(hits, hits + report.hits, [id](const QueryHit& hit) { return hit.body == id && !hit.undecided; });
 }
 
-/// The centre of a dynamic body passes the surface of a fixed body, from the outside, within a step.
+/// The fault that the centre of a dynamic body passes the surface of a fixed body, from the outside, within a step.
 class TunnelsFault : public Fault {
  public:
   void before_step(const World& world) override {
@@ -101,7 +102,7 @@ class TunnelsFault : public Fault {
     if (query_ray(world, query, {hits, k_passed_max}, report) != Status::ok) return {};
     for (uint32_t i = 0; i < report.hits; ++i) {
       const QueryHit& hit = hits[i];
-      // At fraction 0 the ray starts within the body: it was passed before.
+      // At fraction 0 the ray starts within the fixed body: its surface was passed before.
       if (hit.undecided || hit.fraction == Fraction(0.0) || !is_of_type(world, hit.body, BodyType::fixed)) continue;
       if (may_touch(world, before.id, hit.body) && contains_own_centre(world, before.id, now.position)) return hit.body;
     }
@@ -115,7 +116,7 @@ class TunnelsFault : public Fault {
       if (get_contact(world, i, contact) != Status::ok || !(concerns(contact.a) || concerns(contact.b))) continue;
       const bool of_fixed =
           is_of_type(world, contact.a, BodyType::fixed) || is_of_type(world, contact.b, BodyType::fixed);
-      // Of the two, only the dynamic one has a thickness.
+      // Of the two bodies, only the dynamic one has a thickness; that of the fixed body is 0.
       const double thickness = fault_body_thickness(world, contact.a) + fault_body_thickness(world, contact.b);
       if (of_fixed && thickness > 0 && fault_depth_of(contact) > k_sunk_start * thickness) return true;
     }

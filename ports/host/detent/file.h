@@ -11,7 +11,7 @@
 
 namespace detent_tool {
 
-/// The largest file that is read whole, bytes. An OBJ of the largest mesh takes about half of it.
+/// The largest file that is read whole, bytes. An OBJ file of the largest mesh takes about half of this.
 inline constexpr uint64_t k_whole_file_bytes_max = uint64_t{1} << 28;
 
 struct CloseFile {
@@ -33,7 +33,7 @@ inline File open_file(const std::string& path, const char* mode) {
 /// Appends the reason in `errno` to `what`.
 inline std::string with_reason(const std::string& what) { return errno == 0 ? what : what + ": " + strerror(errno); }
 
-/// Appends the stream's bytes up to its end. Returns the problem; empty if none.
+/// Appends the bytes of the stream, up to its end, to `bytes`. Returns the problem; empty if none.
 inline std::string read_stream(FILE* file, uint64_t bytes_max, std::vector<uint8_t>& bytes) {
   constexpr size_t k_piece_bytes = 65536;
   const size_t before = bytes.size();
@@ -61,7 +61,7 @@ inline uint64_t file_bytes(const std::string& path) {
   return error ? 0 : bytes;
 }
 
-/// Whether both paths lead to the same regular file, also by links. False for devices, pipes and missing files.
+/// Whether both paths lead to the same regular file, directly or by links. False for devices, pipes and missing files.
 inline bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code error;
   return std::filesystem::is_regular_file(a, error) && std::filesystem::equivalent(a, b, error);

@@ -1,7 +1,7 @@
 #pragma once
 #include <detent/world.h>
 
-/// What a step loses or leaves undecided: the one definition for `detent shrink` and the zoo.
+/// What a step drops for lack of room or leaves undecided. `detent shrink` and the zoo both use this definition.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

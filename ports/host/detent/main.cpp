@@ -46,7 +46,7 @@ int run_record(const RecordRequest& request, const std::string& config, const Re
   return outcome.verdict == Verdict::good ? k_exit_good : k_exit_bad;
 }
 
-/// False, with a line on standard error, if a file cannot be read.
+/// Reads the assets. Returns false, and prints a line to standard error, if a file cannot be read.
 bool read_assets(const std::vector<std::string>& paths, Assets& assets) {
   for (const std::string& path : paths) {
     assets.push_back({});
@@ -58,7 +58,7 @@ bool read_assets(const std::vector<std::string>& paths, Assets& assets) {
   return true;
 }
 
-/// Whether the output is one of the input files, also by another path. Then prints a line to standard error.
+/// Whether the output is one of the input files, perhaps by another path. If so, prints a line to standard error.
 bool overwrites(const std::string& output, const std::vector<std::string>& inputs) {
   for (const std::string& input : inputs) {
     if (!is_same_file(input, output)) continue;
@@ -113,7 +113,8 @@ int run_trace(TraceRequest request, uint32_t level, const std::vector<std::strin
   return outcome.verdict == Verdict::good ? k_exit_good : k_exit_bad;
 }
 
-/// Exit code. 0: equal, 1: different, 2: the files cannot be compared, or not to the end.
+/// Runs `detent diff`. Returns the exit code. 0: equal, 1: different, 2: the files cannot be compared, or not to the
+/// end.
 int run_diff(DiffRequest request, const std::vector<std::string>& asset_paths, const Report& report) {
   if (!read_assets(asset_paths, request.assets)) return k_exit_usage;
   Difference difference;

@@ -6,7 +6,8 @@
 
 namespace detent_tool {
 
-/// A progress bar on standard error, shown only on a terminal and after half a second; removed when the work is done.
+/// A progress bar on standard error. It appears only on a terminal, after half a second, and disappears when the work
+/// is done.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string label);
@@ -14,7 +15,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
   void show(uint64_t done, uint64_t total);
-  /// Removes the bar until its next update: call it before printing a line.
+  /// Removes the bar until its next update. Call this before printing a line.
   void hide();
 
  private:

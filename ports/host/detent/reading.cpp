@@ -115,9 +115,9 @@ class Reading {
     outcome.field = error.field;
     outcome.offset = error.offset;
     outcome.tick = error.tick;
-    // A digest covers the state after its tick; any other fault lies before the next tick.
+    // A digest covers the state after its tick, so that tick may be wrong. Any other fault comes before the next tick.
     outcome.first_bad_tick = ends_with(outcome.field, "digest") ? error.tick : error.tick + 1;
-    // False for calls after the last tick.
+    // Stays false if the calls after the last tick differ.
     outcome.digests_differ = status == Status::digest_differs && ends_with(outcome.field, "digest") &&
                              (outcome.field != "final digest" || !is_due(player_->info().digest_interval, error.tick));
     outcome.problem = problem_text(error, *input_);

@@ -13,12 +13,12 @@ inline namespace DETENT_NAMESPACE {
 
 Source source_of(detent_tool::Input& input);
 Sink sink_of(detent_tool::Output& output);
-/// Determines the kind of a file from its first k_file_kind_bytes, or fewer.
+/// Determines the kind of a file from its first k_file_kind_bytes bytes, or from all bytes of a shorter file.
 detent_tool::FileKind kind_of(const uint8_t* bytes, uint32_t count);
-/// One line with the place and the reason where a replay stopped.
+/// Returns one line with the place where a replay stopped, and the reason.
 std::string problem_text(const ReplayError& error, detent_tool::Input& input);
 
-/// The world that a recording is replayed in.
+/// The world in which a recording is replayed.
 struct ReplayWorld {
   OwnedWorld owned;
   std::vector<Asset> table;

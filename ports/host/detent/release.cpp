@@ -101,7 +101,7 @@ std::string find_release(uint32_t simulation_version) {
   for (size_t start = 0; start < folders.size();) {
     const size_t end = std::min(folders.find(':', start), folders.size());
     const std::filesystem::path candidate = std::filesystem::path(folders.substr(start, end - start)) / name;
-    // An empty entry of PATH means the current folder: no program is run from there.
+    // An empty entry of PATH means the current folder. The tool runs no program from the current folder.
     if (end != start && is_program(candidate)) return candidate.string();
     start = end + 1;
   }

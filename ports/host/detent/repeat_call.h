@@ -6,9 +6,9 @@ inline namespace DETENT_NAMESPACE {
 
 struct RepeatedCall {
   Status status = Status::corrupt;
-  bool same_id = true;  ///< it gives the recorded id, or none
+  bool same_id = true;  ///< the call gives the recorded id, or gives no id
 };
-/// Makes a call or query again, through a recorder; `record` is what a ReplayWatch gets.
+/// Repeats a call or query through a recorder. `record`, `count`: the arguments of ReplayWatch::called.
 RepeatedCall repeat_call(Recorder& recorder, const uint8_t* record, uint32_t count);
 
 }  // namespace DETENT_NAMESPACE

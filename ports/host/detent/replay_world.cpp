@@ -10,7 +10,7 @@
 #include "state/view.h"
 #include "text.h"
 
-/// What every replay needs, also that of a page (ports/web): no file is opened here.
+/// What every replay needs, including the replays of a page (ports/web). Therefore no file is opened here.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

@@ -18,7 +18,7 @@ double rate(const Outcome& outcome) {
 
 std::string text(uint64_t value) { return std::to_string(value); }
 
-/// Flushed at once, so that an aborted run leaves a log of its finished files.
+/// Prints a line and flushes it at once, so that an aborted run leaves a log of the finished files.
 void put(const std::string& line) {
   printf("%s\n", line.c_str());
   fflush(stdout);

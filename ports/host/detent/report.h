@@ -13,7 +13,7 @@ struct Report {
 
   void recorded(const RecordRequest& request, const Outcome& outcome) const;
   void verified(const std::string& path, const Outcome& outcome) const;
-  /// The sum over many files; goes to standard error when JSON is on.
+  /// Prints the sums over many files; with JSON output, to standard error.
   void verified_all(uint64_t files, uint64_t bad, uint64_t passed_over, uint64_t ticks, double seconds) const;
   void recovered(const std::string& from, const std::string& to, const Outcome& outcome) const;
   void traced(const TraceRequest& request, const Outcome& outcome) const;

@@ -15,8 +15,8 @@ namespace detent_tool {
 struct RunLine {
   struct Value {
     const char* name;
-    std::string text;             ///< or, if it is empty,
-    std::vector<double> numbers;  ///< one, or a list
+    std::string text;             ///< the value; if empty, `numbers` is the value
+    std::vector<double> numbers;  ///< one number, or a list
     bool list = false;
   };
   uint64_t tick = 0;  ///< completed ticks
@@ -30,7 +30,7 @@ struct RunLine {
 
 struct RunPrints {
   bool bodies = false;   ///< the bodies' poses at the end
-  bool events = false;   ///< of contacts, sensors, joints and sleep
+  bool events = false;   ///< the events of contacts, sensors, joints and sleep
   bool queries = false;  ///< the results of queries
   bool ticks = false;    ///< the digest after each tick
 };
@@ -40,10 +40,10 @@ struct RunRequest {
   const Node* root = nullptr;
   bool ticks_given = false;
   uint32_t ticks = 0;
-  std::string recording;                     ///< path to write; empty: none
-  std::vector<uint8_t>* recorded = nullptr;  ///< takes the recording instead of a file
+  std::string recording;                     ///< path of the recording to write; empty: none
+  std::vector<uint8_t>* recorded = nullptr;  ///< receives the recording, instead of a file; null: unused
   uint32_t digest_interval = 1;
-  uint32_t world_bytes_max = 1u << 30;  ///< a scene whose world is larger is refused
+  uint32_t world_bytes_max = 1u << 30;  ///< a scene whose world needs more memory is refused
   RunPrints prints;
 };
 
@@ -52,12 +52,12 @@ struct RunOutcome {
   std::string description;
   std::vector<std::string> assets;  ///< files of the asset table, relative to the scene's folder, in order
   std::vector<std::string> asset_digests;
-  uint32_t bodies = 0;  ///< at the end
+  uint32_t bodies = 0;  ///< number of bodies at the end
   uint32_t joints = 0;
   uint64_t ticks = 0;
   uint64_t ticks_incomplete = 0;  ///< steps that dropped or clamped something: pairs, contacts, range
-  uint64_t ticks_full = 0;        ///< those steps in which a capacity was too small
-  /// A capacity that would have been large enough.
+  uint64_t ticks_full = 0;        ///< steps among these in which a capacity was too small
+  /// Capacities that would have been large enough.
   uint32_t bodies_fit = 0, contacts_fit = 0, joints_fit = 0, sensed_fit = 0;
   uint64_t calls = 0;
   uint64_t digest = 0;
@@ -73,9 +73,11 @@ struct RunCommand {
   RunRequest request;
   bool json = false;
 };
-/// Reads a scene file, but not its definitions. False, with the problem, if it is none.
+/// Parses a scene file to nodes; does not read the definitions. Returns false, with the problem, if the file cannot be
+/// read or is no JSON.
 bool read_scene_file(const std::string& path, Node& root, Problem& problem);
-/// Reads, plays and prints a scene. False if anything failed; the problems go to standard error.
+/// Reads and plays a scene, and prints the results. Returns false if anything failed, and prints the problems to
+/// standard error.
 bool run_scene_file(const RunCommand& command);
 
 /// The JSON Schema of scenes, and the tables of docs/scene.md, as text.

@@ -1,7 +1,7 @@
 #pragma once
 #include "scene_fields.h"
 
-/// The keys of an action: the common ones, and those of each call.
+/// The keys of an action: the keys that all actions have, and the keys of each kind of call.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

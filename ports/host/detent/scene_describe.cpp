@@ -130,7 +130,7 @@ class ObjectDescriber {
   size_t variant_;
 };
 
-/// Adds T's object, and after it the objects of its fields' types, each once.
+/// Adds the description of T, and after it the descriptions of its fields' types, each type only once.
 template <class T>
 void describe(std::vector<ObjectInfo>& objects) {
   const std::string name = TypeText<T>::k_name;

@@ -1,8 +1,9 @@
 #pragma once
 #include "scene_text.h"
 
-/// The single list of a scene's keys. visit() passes each key of an object to `fields`: a reader takes the value from
-/// the JSON (scene_reader.h), a describer notes the key for the schema and the docs (scene_describe.cpp).
+/// The only list of a scene's keys. visit() passes each key of an object to `fields`, which is a reader or a describer.
+/// A reader takes the value from the JSON (scene_reader.h). A describer notes the key for the schema and the docs
+/// (scene_describe.cpp).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -122,7 +123,7 @@ void visit(F& fields, Shape& shape) {
     case ShapeType::terrain:
       fields.asset(shape);
       break;
-    default:  // a half-space has no size; a triangle is not among the choices
+    default:  // a half-space has no dimensions; a triangle is not among the choices
       break;
   }
 }

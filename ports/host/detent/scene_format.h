@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-/// The parts of the scene format, as data. The reader, the schema and the tables of docs/scene.md use it. Independent
-/// of the configuration.
+/// The parts of the scene format, as data. The reader, the schema and the tables of docs/scene.md use them. They do not
+/// depend on the configuration.
 namespace detent_tool {
 
-/// low <= x <= high; with `above`: low < x <= high.
+/// The range of a value x: low <= x <= high; if `above`: low < x <= high.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -26,7 +26,7 @@ struct SceneField {
   const char* doc;
   Range range = k_any;
   bool required = false;
-  bool initial = true;  ///< a missing key leaves the member's initial value
+  bool initial = true;  ///< if the key is missing, the member keeps its initial value
 };
 constexpr SceneField required(SceneField field) {
   field.required = true;
@@ -50,7 +50,7 @@ enum class FieldKind : unsigned {
   choice,      ///< one of the given names
   choices,     ///< any number of the given names
   object,      ///< an object of the type
-  named,       ///< an object of the type, or the name of one
+  named,       ///< an object of the type, or the name of such an object
   list,        ///< a list of objects of the type
   dictionary,  ///< names with objects of the type
 };
@@ -63,7 +63,7 @@ struct FieldInfo {
   FieldKind kind = FieldKind::number;
   std::string type;                ///< an ObjectInfo's name
   std::vector<std::string> names;  ///< of a choice
-  std::string initial;             ///< the value of a missing key, as JSON; empty: none
+  std::string initial;             ///< the value if the key is missing, as JSON; empty: no value
 };
 
 /// The fields of an object for one value of its tag.

@@ -18,8 +18,8 @@ class Place {
  public:
   explicit Place(const char* begin) : read_(begin), counted_(begin) {}
   void read_one(const char* character) { read_ = character + 1; }
-  /// The line of the last character read. The parser reads one character beyond a number, so a line end belongs to its
-  /// line.
+  /// The line of the last character read. The parser reads one character beyond a number, so a line end counts to the
+  /// line that it ends.
   uint32_t line() {
     const char* const last = read_ == counted_ ? read_ : read_ - 1;
     line_ += static_cast<uint32_t>(std::count(counted_, last, '\n'));
@@ -66,7 +66,7 @@ class Builder {
   }
   bool number_integer(int64_t value) { return number(static_cast<double>(value)); }
   bool number_unsigned(uint64_t value) { return number(static_cast<double>(value)); }
-  /// Parses the text itself, because the C library's conversion depends on the machine.
+  /// Converts the text of the number, because the result of the C library's conversion depends on the machine.
   bool number_float(double, const std::string& text) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -138,7 +138,7 @@ class Builder {
     return node;
   }
   bool open(NodeKind kind) {
-    // An object gets the line of its name, where a reader looks for it.
+    // An object gets the line of its name, because people look for the object there.
     if (open_.size() == k_json_depth_max) {
       return fail(place_.line(), "nested deeper than " + std::to_string(k_json_depth_max));
     }

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-/// JSON in which every value has its line number.
+/// JSON whose values know their line numbers in the file.
 namespace detent_tool {
 
 /// A problem with a scene, and its place.
@@ -21,7 +21,7 @@ std::string problem_text(const std::string& file, const Problem& problem);
 
 enum class NodeKind : uint32_t { null, boolean, number, text, array, object };
 
-/// A value. In an object, `items[i]` has the name `keys[i]`; each name occurs once.
+/// A JSON value. In an object, `items[i]` has the name `keys[i]`; each name occurs once.
 struct Node {
   NodeKind kind = NodeKind::null;
   uint32_t line = 0;
@@ -30,18 +30,19 @@ struct Node {
   std::string text;
   std::vector<std::string> keys;
   std::vector<Node> items;
-  /// If a repeat created this item (scene_repeat.h): its index in the file's list.
+  /// If a repeat created this item (scene_repeat.h): the index, in the list of the file, of the entry that repeats.
   uint32_t entry = 0;
-  /// The index of the copy, such as "i=2, j=0"; empty: the entry does not repeat.
+  /// The indices of the copy, such as "i=2, j=0"; empty: the entry does not repeat.
   std::string copy;
 };
 
-// Limits of a scene, so that a hostile file is refused before it uses up the memory.
+// Limits of a scene, so that the tool refuses a hostile file before the file uses up the memory.
 inline constexpr size_t k_json_bytes_max = size_t{1} << 25;
 inline constexpr uint32_t k_json_values_max = 1u << 20;
 inline constexpr uint32_t k_json_depth_max = 16;
 
-/// False, with the first problem, if the text is no JSON, repeats a name in one object, or exceeds the limits.
+/// Parses the text. Returns false, with the first problem, if the text is no JSON, repeats a name in one object, or
+/// exceeds the limits.
 bool parse_json(std::string_view text, Node& root, Problem& problem);
 
 }  // namespace detent_tool

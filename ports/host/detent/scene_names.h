@@ -8,7 +8,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The names of the existing objects. Id: BodyId or JointId.
+/// The names of the bodies or joints that exist. Id: BodyId or JointId.
 template <class Id>
 class SceneNames {
  public:

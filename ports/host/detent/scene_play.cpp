@@ -73,7 +73,8 @@ class Recording {
             },
             this};
   }
-  /// The file is made only once the world is. False on failure, with the reason in `problem`.
+  /// Opens the recording. Called after the world was created, so that no file is left if that fails. Returns false on
+  /// failure, with the reason in `problem`.
   bool open(std::string& problem) {
     if (request_.recording.empty()) return true;
     output_ = Output::open(request_.recording, ends_with(request_.recording, k_compressed_suffix), problem);

@@ -6,10 +6,10 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Reads the scene and plays it. Writes and plays nothing if the scene has any error.
+/// Reads the scene and plays it. If the scene has an error, plays nothing and writes nothing.
 detent_tool::RunOutcome play_scene(const detent_tool::RunRequest& request, const detent_tool::RunPrinter& print,
                                    const detent_tool::Progress& progress);
-/// Describes every object of the format; the first is the whole file.
+/// Describes every kind of object in the scene format. The first is the file as a whole.
 std::vector<detent_tool::ObjectInfo> describe_scene();
 
 }  // namespace DETENT_NAMESPACE

@@ -15,7 +15,8 @@ class ScenePlayer {
   /// Binds the assets and creates the first bodies and joints. Stops at the first failure: returns false and adds a
   /// problem.
   bool build();
-  /// Makes the calls before a tick; `tick`: number of completed ticks, in order from 0 on. Failures as in build().
+  /// Makes the calls before a tick. `tick`: number of completed ticks; the caller passes 0, 1, 2 and so on. Failures as
+  /// in build().
   bool before_tick(uint32_t tick);
   /// Prints the events of the last step.
   void print_events(const World& world, const StepReport& report) const;
@@ -42,7 +43,7 @@ class ScenePlayer {
   SceneNames<JointId> joints_{"joint"};
   std::vector<uint32_t> order_;    ///< indices of the actions, by their first tick
   std::vector<uint32_t> running_;  ///< indices of the actions between their first and last tick
-  size_t next_ = 0;                ///< index into order_
+  size_t next_ = 0;                ///< index of the next action in order_
   uint64_t calls_ = 0;
 };
 

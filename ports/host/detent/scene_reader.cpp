@@ -34,8 +34,8 @@ bool in_range(double value, const Range& range) {
   return value <= range.high && (range.above ? value > range.low : value >= range.low);
 }
 
-/// Rotates by `degrees` about an axis of any length. Uses only sums, products, quotients and roots of doubles, which
-/// are the same everywhere, and then the library's own rotation.
+/// Rotates by `degrees` about an axis of any length. Uses only sums, products, quotients and roots of doubles, whose
+/// results are the same on every machine, and then the library's own rotation.
 Quat turned_about(const Quat& rotation, const double (&axis)[3], double degrees) {
   const double length = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
   const double angle = degrees * (3.14159265358979323846 / 180.0);

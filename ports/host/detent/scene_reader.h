@@ -10,7 +10,7 @@ struct SceneReference {
   SceneOrigin origin;
   std::string name;
   bool joint = false;
-  bool action = false;  ///< refers to the changes that later calls make to an object created by an action
+  bool action = false;  ///< the name may be that of an object that an action creates
 };
 
 /// The results and problems collected while a scene is read.
@@ -20,24 +20,25 @@ struct SceneReading {
   std::vector<SceneReference> references;
   SceneText scene;
 
-  /// Further problems than a screenful are dropped.
+  /// Whether k_problems_max problems have been found: further problems are dropped.
   bool is_full() const { return problems.size() >= k_problems_max; }
   void problem(const SceneOrigin& origin, const std::string& text);
   void problem(const Node& node, const std::string& path, const std::string& text);
 };
 
-/// Reads the whole scene. The scene is good if there are no problems afterwards. `root` must outlive it.
+/// Reads the whole scene. The scene is good if `reading` then has no problems. `root` must outlive `reading`.
 void read_scene(const Node& root, SceneReading& reading);
 
-/// Reads the keys of one object. A wrong value is a problem, and the member stays unchanged; a missing key leaves its
-/// member unchanged too. All functions but tag() return whether the key is present.
+/// Reads the keys of one object. A wrong value is reported as a problem. If the value is wrong or the key is missing,
+/// the member stays unchanged. The functions that return a bool, except tag(), return whether the key is present.
 class ObjectReader {
  public:
   ObjectReader(SceneReading& reading, const Node& node, const std::string& path);
 
   bool given(const char* key) const { return index_of(key) < node_.keys.size(); }
   void problem(const char* key, const std::string& text);
-  /// Reports keys of a repeat as problems. Entries of lists no longer have such keys here (scene_repeat.h).
+  /// Reports keys of a repeat as problems. They are misplaced if they are still here: write_out_repeats()
+  /// (scene_repeat.h) has already removed them from the entries of lists.
   void repeated();
   void origin(SceneOrigin& origin) const { origin = {node_.line, path_}; }
   bool real(const SceneField& field, Real& value);
@@ -82,7 +83,7 @@ class ObjectReader {
     }
     return true;
   }
-  /// False if the key is missing or has no valid value: then no further key can be checked.
+  /// Returns false if the key is missing or its value is wrong: then the keys that depend on the tag cannot be checked.
   template <class T, size_t count>
   bool tag(const SceneField& field, T& value, const Choice<T> (&choices)[count]) {
     const Node* const node = take(required(field));
@@ -121,8 +122,8 @@ class ObjectReader {
     const Node* const node = take(field);
     if (node == nullptr || !is(*node, NodeKind::array, path_of(field.key))) return;
     size_t problems = 0;
-    // A definition takes a kilobyte of memory, and a wrong one three letters of the file: without the limit a hostile
-    // file would use up all memory.
+    // A definition takes a kilobyte of memory, but a wrong definition takes only three letters of the file. Without the
+    // limit of problems, a hostile file would use up all memory.
     for (size_t i = 0; i < node->items.size() && !reading_.is_full(); ++i) {
       const Node& item = node->items[i];
       // A problem with one copy is a problem with all copies, so it is reported once.
@@ -142,7 +143,8 @@ class ObjectReader {
       read(reading_, node->items[i], path_of(field.key) + "." + node->keys[i], values[node->keys[i]]);
     }
   }
-  /// Checks the definition now; the action applies it later to the definition of that time.
+  /// Checks the changed fields of a definition now. When the action is executed, it applies them to the definition that
+  /// the object has then.
   template <class T>
   void changes(const SceneField& field, const Node*& kept) {
     T scratch;

@@ -56,7 +56,7 @@ struct Amount {
   }
 };
 
-/// Reads and copies one entry; stops at the first problem.
+/// Reads one repeating entry and writes its copies; stops at the first problem.
 class Writer {
  public:
   Writer(std::vector<Problem>& problems, const std::string& path, bool joints)

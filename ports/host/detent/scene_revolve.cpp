@@ -21,8 +21,8 @@ Turn product(const Turn& a, const Turn& b) {
           a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 
-/// Sine and cosine of an angle within +-pi/2 by their series, whose remainder is below an ulp. The C library's
-/// functions differ from machine to machine.
+/// Sine and cosine of an angle within +-pi/2, computed by their series with a remainder below an ulp. The functions of
+/// the C library are not used, because they differ from machine to machine.
 void sine_and_cosine(double angle, double& sine, double& cosine) {
   constexpr int k_terms = 13;
   const double square = angle * angle;
@@ -34,7 +34,7 @@ void sine_and_cosine(double angle, double& sine, double& cosine) {
   sine *= angle;
 }
 
-/// False if the axis has no direction.
+/// Makes the rotation about an axis. Returns false if the axis has no direction.
 bool rotate_about(const double (&axis)[3], double degrees, Turn& revolution) {
   const double length = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
   if (!(length > 1e-6)) return false;
@@ -106,7 +106,8 @@ void revolve_vector(Node& entry, const char* key, const Turn& revolution, const 
   for (size_t i = 0; i < 3; ++i) node->items[i].number = v[i] + about[i];
 }
 
-/// `beside`: if this key is present, a missing `key` means no rotation, and it is added.
+/// Rotates the rotation in `key`. `beside`: if this key is present and `key` is missing, adds `key`, as if it were the
+/// rotation by 0.
 void turn_rotation(Node& entry, const char* key, const char* beside, const Turn& revolution) {
   Node* const node = member_of(entry, key);
   Turn own;

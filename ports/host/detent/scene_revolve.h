@@ -1,10 +1,11 @@
 #pragma once
 #include "scene_json.h"
 
-/// Rotates values of a scene in doubles, with sums, products, quotients and roots only: the same on every machine.
+/// Rotates values of a scene. Computes with sums, products, quotients and roots of doubles only, so the results are the
+/// same on every machine.
 namespace detent_tool {
 
-/// A right-handed rotation about a line through `about` along `axis`, of any length but 0.
+/// A right-handed rotation about the line through `about` along `axis`. The length of `axis` may be any but 0.
 struct SceneRevolution {
   double about[3] = {0, 0, 0};
   double axis[3] = {0, 0, 0};
@@ -12,8 +13,8 @@ struct SceneRevolution {
 };
 
 /// Rotates an entry's `position`, `point`, `rotation`, `frame`, `linear_velocity` and `angular_velocity`, if
-/// present. A `point` without a frame gets one, and a `position` without a rotation gets one. Malformed values are left
-/// for the reader to refuse.
+/// present. A `point` without a frame gets one, and a `position` without a rotation gets one. Malformed values stay
+/// unchanged; the reader refuses them later.
 void revolve_entry(Node& entry, const SceneRevolution& revolution);
 
 /// The member of that name, or null.

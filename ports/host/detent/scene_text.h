@@ -45,7 +45,7 @@ struct SceneJoint {
   SceneOrigin origin;
   std::string name;
   std::string a, b;
-  bool placed = false;  ///< placed at `point`, with the bodies' present poses, instead of by its anchors
+  bool placed = false;  ///< placed at `point` with the bodies' present poses, not by its anchors
   Position point = {0.0, 0.0, 0.0};
   Quat frame = {0.0, 0.0, 0.0, 1.0};
   JointDef def;
@@ -126,7 +126,7 @@ constexpr Choice<Call> k_calls[] = {
 };
 inline const char* call_name(Call call) { return k_calls[static_cast<uint32_t>(call)].name; }
 
-/// The bodies that a query tests: a QueryFilter whose `ignore` is a name.
+/// Which bodies a query tests: a QueryFilter in which `ignore` is the name of a body.
 struct SceneQueryFilter {
   std::string ignore;
   QueryFilter filter;
@@ -164,7 +164,7 @@ struct SceneAction {
   SceneQueryFilter asked = {};
 };
 
-/// The value of a capacity that is not given.
+/// The value of a capacity that the file leaves out, so that it is computed from the scene.
 constexpr uint32_t k_counted = UINT32_MAX;
 
 struct SceneText {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr size_t k_word_max = 32;
 constexpr size_t k_named_max = 24;
-constexpr size_t k_compared_max = 10000;  // names; more from a hostile file would take minutes
+constexpr size_t k_compared_max = 10000;  // most names that are compared: a hostile file with more would take minutes
 
 /// The edit distance: letters to change, add or remove. Source: Levenshtein 1966.
 size_t edits(const std::string& a, const std::string& b) {

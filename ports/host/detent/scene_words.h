@@ -4,7 +4,8 @@
 
 namespace detent_tool {
 
-/// The nearest of the names, if one is near: ", did you mean "radius"?"; otherwise all names if there are few.
+/// A suggestion for a misspelt word. If one of the names is near, for example: ", did you mean "radius"?". Otherwise a
+/// list of all names, if there are few.
 std::string suggestion(const std::string& word, const std::vector<std::string>& names);
 
 }  // namespace detent_tool

@@ -12,11 +12,12 @@ struct SceneAssets {
   std::vector<Asset> table;
   std::vector<std::string> digests;
 
-  /// False, with a problem, if a file cannot be read or its digest differs from the scene's.
+  /// Reads the cooked files. Returns false, with a problem, if a file cannot be read, or if its digest differs from the
+  /// digest in the scene.
   bool read(SceneReading& reading, const RunRequest& request);
 };
 
-/// False, with a problem, on failure.
+/// Creates the world of the scene. Returns false, with a problem, on failure.
 bool make_world(SceneReading& reading, const SceneAssets& assets, uint32_t bytes_max, OwnedWorld& owned);
 
 }  // namespace DETENT_NAMESPACE

@@ -63,7 +63,7 @@ void print_text(const ShrinkRequest& request, const Shrunk& shrunk) {
     fprintf(stderr, "%s: not everything was tried: raise --replays\n", printable(request.output).c_str());
 }
 
-/// What is wrong with the options for this kind of fault; empty: nothing.
+/// What is wrong with the options for this kind of fault; empty if nothing is.
 std::string misused_option(const ShrinkRequest& request) {
   const bool bounded = request.kind == FaultKind::opens || request.kind == FaultKind::penetrates;
   if (request.bound != 0 && !bounded) return "--bound is for opens and penetrates";

@@ -19,15 +19,15 @@ struct SpanTick {
   uint64_t digest = 0;  ///< recorded
 };
 
-/// The ticks since the last digest that this machine's equals, and the state then.
+/// The ticks since the last recorded digest that equals this machine's, and the state at that digest.
 struct DifferingSpan {
   std::vector<uint64_t> seed;
   uint64_t first = 0;
   std::vector<SpanTick> ticks;  ///< the last entry of a whole recording has only the calls after its last tick
-  bool finished = false;        ///< it has that entry
+  bool finished = false;        ///< `ticks` ends with the calls after the last tick
   size_t bytes = 0;
 
-  /// Begins anew at the world's state.
+  /// Begins a new span at the world's state.
   Status begin(const World& world) {
     const uint32_t bytes_needed = snapshot_bytes(get_info(world).capacity);
     seed.resize((bytes_needed + 7) / 8);
@@ -70,7 +70,7 @@ std::string write_span(const DifferingSpan& span, uint32_t digest_interval, uint
   return recording.full ? "what remains is too large" : "";
 }
 
-/// Replays on this machine. Returns the status, and where and why it ends.
+/// Replays the bytes on this machine. Returns the status; `error` tells where and why the replay ends.
 Status replay_again(const std::shared_ptr<std::vector<uint8_t>>& bytes, const Assets& assets, ReplayError& error,
                     std::string& text) {
   const std::unique_ptr<Input> input = open_bytes(bytes);
@@ -88,8 +88,8 @@ Status replay_again(const std::shared_ptr<std::vector<uint8_t>>& bytes, const As
   return status;
 }
 
-/// Replays and reads the recording tick by tick, up to the first difference, which is in the span's last tick. Returns
-/// why there is none; empty if there is one. `calls`: counts those that were read.
+/// Replays and reads the recording tick by tick, up to the first difference, which is then in the span's last tick.
+/// Returns why there is no difference; empty if there is one. `calls`: the number of calls that were read.
 std::string find_difference_span(Player& player, Input& input, TickReader& reader, World& world, DifferingSpan& span,
                                  uint64_t& calls, const Progress& progress) {
   Status status = player.start(world);
@@ -117,7 +117,8 @@ std::string find_difference_span(Player& player, Input& input, TickReader& reade
              : "";
 }
 
-/// Whether both are the same difference. The shrunk recording has no keyframe; its end has the digest instead.
+/// Whether both errors are the same difference. The shrunk recording has no keyframe: the digest of a keyframe is in
+/// its end instead.
 bool is_same_difference(const ReplayError& a, const ReplayError& b) {
   const std::string field = a.field == std::string(k_keyframe_field) ? "final digest" : a.field;
   return a.tick == b.tick && field == b.field && a.digest_recorded == b.digest_recorded &&

@@ -16,7 +16,8 @@ using namespace detent_tool;
 
 namespace {
 
-/// Bodies that are left out may let the recording start later, and so on.
+/// Largest number of rounds of the search. When bodies are left out, the recording can perhaps start later, and then
+/// more can perhaps be left out.
 constexpr uint32_t k_rounds_max = 4;
 
 Units all_units(const CallList& list) {
@@ -37,7 +38,7 @@ class ShrinkSearch {
         progress_(progress),
         trials_(request.replays_max) {}
 
-  /// Plays the whole recording. False if it does not show the fault.
+  /// Plays the whole recording. Returns false if it does not show the fault.
   bool find() {
     if (!trials_.take()) return false;
     CallPlayer player = player_of(list_, *world_);
@@ -59,8 +60,8 @@ class ShrinkSearch {
     }
   }
 
-  /// Replaces the world by one of less capacity if that plays the same, because the capacity determines the size of a
-  /// recording's seed.
+  /// Replaces the world by a world of less capacity, if the units play in the same way there. The reason: the capacity
+  /// determines the size of a recording's seed.
   void fit_capacity() {
     CallList fitted;
     if (!trials_.take() || !player_of(list_, *world_).list_from(units_, list_.first, fitted)) return;
@@ -95,7 +96,7 @@ class ShrinkSearch {
     return player;
   }
 
-  /// Plays units of the list. If they show the fault, they are what is left.
+  /// Plays units of the list. If they show the fault, takes them as the units that are left.
   bool shows(const Units& units) {
     progress_(trials_.made(), request_.replays_max);
     const PlayedUnits played = player_of(list_, *world_).play(units);
@@ -104,7 +105,7 @@ class ShrinkSearch {
     return true;
   }
 
-  /// Whether there are the ticks to keep before the fault, which may come earlier than in the given recording.
+  /// Whether at least kept_ticks_ ticks precede the fault. It may come earlier than in the given recording.
   bool has_lead(const CallList& list, const PlayedUnits& played) const {
     return played.tick - list.first >= kept_ticks_;
   }
@@ -115,7 +116,7 @@ class ShrinkSearch {
     list_.last = played.tick;
   }
 
-  /// Tries the last start that leaves the ticks before the fault that are to be kept.
+  /// Tries to start the recording later: at the last start that leaves kept_ticks_ ticks before the fault.
   bool start_later() {
     const uint64_t start = played_.start;
     CallList later;
@@ -140,7 +141,9 @@ class ShrinkSearch {
   CallList list_;
   World* world_;
   Fault& fault_;
-  uint64_t kept_ticks_;  ///< from the start to the fault; the step that shows it is one, but for a call that is refused
+  /// Least number of ticks from the start to the fault. Includes the step that shows the fault, if the fault is not the
+  /// refusal of a call.
+  uint64_t kept_ticks_;
   const Progress& progress_;
   OwnedWorld fitted_;
   Trials trials_;
@@ -148,8 +151,8 @@ class ShrinkSearch {
   PlayedUnits played_;
 };
 
-/// Whether the recording verifies, and shows the fault again at its last tick; a call that is to be refused is its
-/// last.
+/// Whether the recording verifies and shows the fault again, at its last tick. If the fault is the refusal of a call,
+/// the replay must end at this call instead, and the call must be the last.
 bool shows_again(const ShrinkRequest& request, const std::shared_ptr<std::vector<uint8_t>>& bytes, Fault& fault,
                  const PlayedUnits& written) {
   Recorded recorded;
@@ -169,9 +172,9 @@ bool shows_again(const ShrinkRequest& request, const std::shared_ptr<std::vector
   CallReading reading;
   read_calls(recorded, request.reading.assets, reading);
   if (!reading.problem.empty() || !reading.damage.empty()) return false;
-  const std::unique_ptr<Fault> unsettled = make_fault(request);  // a call has another place here
+  const std::unique_ptr<Fault> unsettled = make_fault(request);  // `fault` knows the call by its old place
   Fault& same = request.kind == FaultKind::status ? *unsettled : fault;
-  same.body_slot = fault.body.slot;  // as this recording calls it
+  same.body_slot = fault.body.slot;  // the slot of the body in this recording
   const PlayedUnits played = CallPlayer(reading.list, reading.world.owned.world, same).play(all_units(reading.list));
   return played.fault == written.fault && played.tick == written.tick;
 }

@@ -6,11 +6,12 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Engine::shrink.
+/// The implementation of Engine::shrink.
 detent_tool::Outcome shrink(const detent_tool::ShrinkRequest& request, detent_tool::Shrunk& shrunk,
                             const detent_tool::Progress& progress);
-/// The same for a recording that does not verify: keeps the ticks from the last digest that is right to the first that
-/// is not. No body or call can be left out, because the digests of the other machine are known only for all.
+/// Shrinks a recording that does not verify: keeps the ticks from the last digest that equals this machine's to the
+/// first that does not. Leaves out no body and no call, because the digests of the other machine are only known for all
+/// of them together.
 detent_tool::Outcome shrink_difference(const detent_tool::ShrinkRequest& request, const detent_tool::Recorded& recorded,
                                        detent_tool::Shrunk& shrunk, const detent_tool::Progress& progress);
 /// Writes the recording to the request's output. Returns the problem; empty if none.

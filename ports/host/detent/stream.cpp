@@ -185,7 +185,7 @@ std::unique_ptr<Output> Output::open(const std::string& path, bool compressed, s
     file = open_file(path, "wb");
   } else {
     target = resolved(path);
-    // A file that may not be written must not be replaced either.
+    // A file without write permission must not be replaced either.
     if (!exists || open_file(target, "r+b") != nullptr) file = create_temporary(target, temporary_path);
     if (file != nullptr && exists) std::filesystem::permissions(temporary_path, status.permissions(), error);
     if (file != nullptr) remove_at_signals(temporary_path);

@@ -8,26 +8,29 @@
 /// Files as streams of bytes: recordings to read, possibly compressed, and all files that the tool writes.
 namespace detent_tool {
 
-/// The largest decompressed size, bytes: a small file must not occupy a machine for days.
+/// The largest number of bytes that are read from a compressed file, so that a small file cannot occupy a machine for
+/// days.
 inline constexpr uint64_t k_unpacked_bytes_max = uint64_t{1} << 30;
-/// The largest snapshot in a compressed file, bytes: its world takes a few times as much memory.
+/// The largest snapshot in a compressed file, bytes. The limit bounds the memory of the world, which is a few times as
+/// large as its snapshot.
 inline constexpr uint64_t k_unpacked_snapshot_bytes_max = uint64_t{1} << 28;
 
-/// A recording to read. Its first bytes, not its name, decide whether it is compressed.
+/// A recording to read. The first bytes of the file, not its name, decide whether it is compressed.
 class Input {
  public:
   /// Null on failure, with the reason in `problem`.
   static std::unique_ptr<Input> open(const std::string& path, std::string& problem);
   virtual ~Input() = default;
-  /// `got` is less than `count` only at the end. False on a read error, with the reason in `problem`.
+  /// Reads the next bytes. `got` is less than `count` only at the end. Returns false on a read error, with the reason
+  /// in `problem`.
   virtual bool read(uint8_t* bytes, uint32_t count, uint32_t& got) = 0;
   virtual bool seek(uint64_t offset) = 0;
-  /// After the last byte that is needed: whether the file is whole to its end, which compression marks with a checksum.
-  /// If not, the reason is in `problem`.
+  /// Called after the last byte that is needed. Returns whether the rest of the file is complete; a compressed file
+  /// ends with a checksum. If not, the reason is in `problem`.
   virtual bool ends_whole() { return true; }
 
-  uint64_t file_bytes = 0;          ///< on the disk
-  uint64_t bytes_max = 0;           ///< limit of bytes that can be read
+  uint64_t file_bytes = 0;          ///< size of the file on the disk
+  uint64_t bytes_max = 0;           ///< limit of the number of bytes that can be read
   uint64_t snapshot_bytes_max = 0;  ///< limit of the snapshot's size
   std::string problem;
 };
@@ -35,9 +38,9 @@ class Input {
 /// Makes an input of bytes in memory.
 std::unique_ptr<Input> open_bytes(std::shared_ptr<const std::vector<uint8_t>> bytes);
 
-/// A file to write. The file gets its name when it is closed, complete. Until then the bytes are in a temporary file in
-/// the same folder, and an existing file of that name is unchanged. Devices and pipes are written directly. "-" is
-/// standard output; all later printed text then goes to standard error.
+/// A file to write. The file gets its name when it is complete and closed. Until then the bytes are in a temporary file
+/// in the same folder, and an existing file of that name stays unchanged. Devices and pipes are written directly. The
+/// path "-" is standard output; all text that is printed afterwards goes to standard error.
 class Output {
  public:
   /// Null on failure, with the reason in `problem`.
@@ -47,7 +50,7 @@ class Output {
   /// Discards the file if it was not closed.
   virtual ~Output();
   virtual bool write(const uint8_t* bytes, uint32_t count) = 0;
-  /// Whether all bytes have reached the file, which then has its name.
+  /// Completes the file and gives it its name. Returns false if not all bytes have reached the file.
   bool close();
 
   uint64_t file_bytes = 0;  ///< bytes written; after close(), the file's size

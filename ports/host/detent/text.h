@@ -17,7 +17,7 @@ inline bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-/// Replaces control characters: text from a file may contain anything, and a terminal must not execute it.
+/// Replaces control characters. Text from a file may contain any characters, and a terminal must not execute them.
 inline std::string printable(std::string text) {
   for (char& letter : text) {
     if (static_cast<unsigned char>(letter) < ' ' || letter == 0x7f) letter = '?';

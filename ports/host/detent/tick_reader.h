@@ -13,15 +13,15 @@ class TickReader {
   explicit TickReader(const detent_tool::Recorded& recorded);
   TickReader(const TickReader&) = delete;
 
-  /// Reads the next tick, or the end after the last tick. False at the end, and on a problem.
+  /// Reads the next tick, or, after the last tick, the end. Returns false at the end, and on a problem.
   bool next();
   const RecordingInfo& info() const { return player_->info(); }
 
   std::string problem;
   bool other_config = false;                ///< the problem is another configuration
   bool finished = false;                    ///< all ticks were read; the other members describe the end
-  uint64_t tick = 0;                        ///< completed
-  std::vector<std::vector<uint8_t>> calls;  ///< records before the tick
+  uint64_t tick = 0;                        ///< number of completed ticks
+  std::vector<std::vector<uint8_t>> calls;  ///< records of the calls before the tick
   TickTrace trace;                          ///< of the tick
   bool compared = false;
   uint64_t digest = 0;  ///< valid if `compared`

@@ -34,7 +34,7 @@ void add(StageTrace& stage, const TracePart& part, uint32_t place, const uint8_t
                         : static_cast<uint32_t>(word_at(bytes + key_bytes, k_trace_digest_bytes));
 }
 
-/// Converts the bits of a number by the library's own conversions.
+/// Converts the bits of a number to a double, by the library's own conversions.
 double number_of(WordKind kind, uint32_t width, const uint8_t* bytes) {
   const uint64_t word = word_at(bytes, width);
   switch (kind) {
@@ -158,7 +158,7 @@ void compare_element(const TracePart& part, const ElementName& name, const Stage
     difference.fields.push_back(std::move(field));
   };
   const std::vector<uint8_t> zeros(part.element_bytes, 0);
-  const bool both = (a != nullptr && b != nullptr) || !part.sorted;  // in the other parts a missing element is zero
+  const bool both = (a != nullptr && b != nullptr) || !part.sorted;  // if not sorted, a missing element is zero
   if (!full || !both) {
     if (a != nullptr && b != nullptr && a->digest == b->digest) return;
     FieldDifference field;

@@ -15,13 +15,13 @@ inline namespace DETENT_NAMESPACE {
 
 struct StageTrace {
   struct Element {
-    std::vector<uint8_t> bytes;  ///< its canonical bytes; in a trace of digests only its key
+    std::vector<uint8_t> bytes;  ///< canonical bytes of the element; in a trace of digests only its key
     uint32_t digest = 0;
   };
-  /// The key of an element in a sorted part; in other parts its index.
+  /// In a sorted part, the key of an element; in other parts, the index of the element.
   using Key = std::vector<uint32_t>;
-  /// libstdc++ 12's own order of vectors of multi-byte integers is wrong on big-endian machines: it compares too few
-  /// bytes.
+  /// Replaces operator< of std::vector, which is wrong for multi-byte integers on big-endian machines in libstdc++ 12:
+  /// it compares too few bytes.
   struct KeyOrder {
     bool operator()(const Key& a, const Key& b) const {
       return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
@@ -38,7 +38,7 @@ struct TickTrace {
   bool full = false;
   StageTrace stages[k_trace_stage_count];
 
-  /// False if the bytes are not a valid trace.
+  /// Reads the bytes of a trace. Returns false if they are not a valid trace.
   bool read(const std::vector<uint8_t>& bytes, bool full_trace);
   /// Takes the trace of a state between steps, as if it were the end of a tick.
   void take_end(const World& world);
@@ -48,7 +48,8 @@ struct TickTrace {
 bool find_difference(const TickTrace& a, const TickTrace& b, detent_tool::Difference& difference);
 
 inline bool is_whole(WordKind kind) { return kind == WordKind::unsigned_integer || kind == WordKind::signed_integer; }
-/// A number from its canonical bytes, `width` bytes a word, in the tool's form.
+/// Converts the canonical bytes of a number to the form in which the tool prints it. `width`: number of bytes in a
+/// word.
 detent_tool::SideValue side_value(WordKind kind, uint32_t width, const uint8_t* bytes);
 
 }  // namespace DETENT_NAMESPACE

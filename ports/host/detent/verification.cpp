@@ -21,7 +21,8 @@ namespace {
 
 bool is_recording_name(const std::string& name) { return ends_with(name, ".rec") || ends_with(name, ".rec.zst"); }
 
-/// Finds the recordings below a folder, in the order of their names. False if the folder cannot be read.
+/// Finds the recordings in a folder and its sub-folders, in the order of their names. Returns false if the folder
+/// cannot be read.
 bool find_recordings(const std::string& folder, std::vector<std::string>& paths) {
   std::error_code error;
   std::vector<std::string> found;
@@ -67,7 +68,7 @@ Outcome verify_here(const VerificationRequest& request, const ReadRequest& readi
   if (!versions || versions->simulation == first.simulation_version || called_by_another_release()) {
     return by_its_engine([&](const Engine& engine) {
       Outcome outcome = engine.verify(reading, progress);
-      // If a digest differs, the recording may contain more details than the tick.
+      // If a digest differs, the recording may tell more than the tick: the stage and the field that differ.
       if (outcome.digests_differ) {
         const Difference difference = engine.explain(reading, outcome.first_bad_tick);
         outcome.difference_text = difference_text(difference, "the recording", "this machine");

@@ -9,7 +9,7 @@ struct VerificationRequest {
   std::string list = {};                ///< a file with one path a line; "-": standard input; empty: none
   std::string log = {};                 ///< the JSON lines of an earlier run; files in it are skipped
   std::vector<std::string> asset_paths = {};
-  ReadRequest reading = {};  ///< except for the path
+  ReadRequest reading = {};  ///< `path` is not used
   uint32_t jobs = 1;
 };
 
@@ -18,10 +18,11 @@ enum class Verification : uint32_t {
   bad,      ///< a recording failed, now or in the log, or something could not be read
   nothing,  ///< there was no recording to verify
 };
-/// Reports each file as soon as it is done, and the sum of all.
+/// Verifies the recordings. Reports each file as soon as it is done, and then the sums over all files.
 Verification verify_all(VerificationRequest request, const Report& report);
 
-/// Reads with the engine of the header's configuration, or with the first engine if no engine has it.
+/// Calls `read` with the engine of the configuration in the header, or with the first engine if no engine has that
+/// configuration.
 template <class Read>
 Outcome by_its_engine(const Read& read) {
   Outcome outcome;

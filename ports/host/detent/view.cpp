@@ -34,7 +34,8 @@ std::string read_recording(const std::string& path, std::vector<uint8_t>& bytes)
   return "";
 }
 
-/// The assets of the page: those that are named, or those of the built-in scenes; no more than the world has room for.
+/// Reads the assets of the page: those that the request names, or else those of the built-in scenes, but no more than
+/// the world has room for.
 std::string read_assets(const ViewRequest& request, const Outcome& recording, Assets& assets) {
   for (const std::string& path : request.asset_paths) {
     assets.push_back({});
@@ -45,7 +46,7 @@ std::string read_assets(const ViewRequest& request, const Outcome& recording, As
   return "";
 }
 
-/// The names of the recordings in the page: those of the files, with their folders if they are equal.
+/// The names of the recordings in the page: the file names; if these are equal, with their folders.
 std::vector<std::string> names_of(const std::vector<std::string>& paths) {
   std::vector<std::string> names;
   for (const std::string& path : paths) names.push_back(std::filesystem::path(path).filename().string());
@@ -78,7 +79,8 @@ struct Written {
   uint64_t ticks = 0;   ///< of the first recording or of all scenes
 };
 
-/// Damage after a header is left to the page, which shows the ticks before it.
+/// Writes the page. A recording that is damaged after its header is no problem here: the page shows the ticks before
+/// the damage.
 Written write(const ViewRequest& request) {
   Written written;
   std::vector<Outcome> recordings;

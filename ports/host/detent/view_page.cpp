@@ -27,7 +27,7 @@ std::string base64(const uint8_t* bytes, size_t count) {
   return text;
 }
 
-/// The name in an attribute of the page: a file may be called anything.
+/// Escapes text for an attribute of the page, because the name of a file may contain any character.
 std::string attribute(const std::string& text) {
   std::string safe;
   for (const char letter : printable(text)) {
@@ -37,8 +37,8 @@ std::string attribute(const std::string& text) {
   return safe;
 }
 
-/// The page of a configuration without a recording, as ports/web/build makes it: installed with the tool, or in the
-/// build folder beside that of the tool. Empty if there is none.
+/// The path of the template that ports/web/build makes: the page of a configuration, without a recording. It is
+/// installed with the tool, or it is in the build folder beside that of the tool. Empty if there is no template.
 std::string find_template(const std::string& config) {
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();

@@ -7,12 +7,12 @@
 
 namespace detent_tool {
 
-/// A page of the viewer that is being written: the template of ports/web/build, and what it shows.
+/// A page of the viewer while it is written: the template of ports/web/build, and the contents to show.
 class ViewPage {
  public:
   using Attributes = std::vector<std::pair<std::string, std::string>>;
 
-  /// Reads the template of this configuration; `path`: the file that is to be shown. Returns the problem; empty if
+  /// Reads the template of this configuration. `path`: the file that the page will show. Returns the problem; empty if
   /// none.
   std::string open(const std::string& path, const std::string& config);
   /// Adds an element of these bytes: a recording, a scene or an asset. The attributes may have any content.

@@ -12,14 +12,14 @@ namespace detent_tool {
 
 namespace {
 
-/// A scene as the page has it: its recording, and the indices of its assets among those of all scenes.
+/// A scene in the page: its recording, and the indices of its assets in SharedAssets.
 struct PlayedScene {
   std::string name, description, asset_indices;
   std::vector<uint8_t> recording;
   uint64_t ticks = 0;
 };
 
-/// The assets of all scenes; each content once.
+/// The assets of all scenes, without duplicates.
 struct SharedAssets {
   std::vector<std::string> digests;
   Assets assets;

@@ -25,7 +25,8 @@ namespace detent_tool {
 
 namespace {
 
-/// The fields of an outcome as bytes, from a process to its parent: the same program on the same machine.
+/// The fields of an outcome as bytes, which a process sends to its parent. Both run the same program on the same
+/// machine, so the bytes need no portable format.
 class Parcel {
  public:
   explicit Parcel(std::string bytes = {}) : bytes_(std::move(bytes)) {}

@@ -24,7 +24,7 @@ struct FreeEncoder {
 };
 
 /// Decompresses only the requested bytes, so a hostile file can cost time, but not memory: the memory is one window, at
-/// most the 128 MB of zstd's own limit. If the file ends, also in the middle of a frame, the bytes end there.
+/// most the 128 MB of zstd's own limit. The bytes end where the file ends, even in the middle of a frame.
 class PackedInput final : public Input {
  public:
   explicit PackedInput(File file)

@@ -8,13 +8,13 @@
 /// oneTBB for WorldHooks::tasks.
 namespace detent_host {
 
-/// The threads of the arena in which step() is called. `workers`: number of calls that a stage asks for; 0: as many as
-/// the arena has slots.
+/// Returns tasks that run on the threads of the arena in which step() is called. `workers`: number of calls that a
+/// stage asks for; 0: the number of slots of the arena.
 template <class Tasks>
 Tasks tbb_tasks(uint32_t workers = 0) {
   Tasks tasks;
   tasks.run = [](void*, uint32_t count, void (*task)(void*), void* argument) {
-    // Isolated: a thread that waits for the end does not begin other work of the program within the step.
+    // Isolated: a thread that waits for the end of the stage does not begin other work of the program within the step.
     tbb::this_task_arena::isolate([=] {
       tbb::parallel_for(
           tbb::blocked_range<uint32_t>(0, count, 1),

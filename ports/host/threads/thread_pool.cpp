@@ -8,7 +8,7 @@ ThreadPool::ThreadPool(uint32_t workers, std::chrono::nanoseconds awake) : awake
   if (workers == 0) workers = std::thread::hardware_concurrency();
   try {
     for (uint32_t i = 1; i < workers; ++i) threads_.emplace_back([this] { work(); });
-  } catch (const std::system_error&) {  // the machine has no more threads: fewer will do
+  } catch (const std::system_error&) {  // the system gives no more threads: the pool has fewer
   }
 }
 

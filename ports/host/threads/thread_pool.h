@@ -11,19 +11,20 @@
 /// Threads of the standard library for WorldHooks::tasks.
 namespace detent_host {
 
-/// A fixed number of threads that sleep while no step needs them. Steps of several worlds may use one pool; while a
-/// stage of one uses it, the stages of others run on their own threads alone. Must outlive the steps that use it.
+/// A fixed number of threads that sleep while no step needs them. The steps of several worlds may use one pool. While a
+/// stage of one world uses the pool, a stage of another world runs only on the thread that steps that world. The pool
+/// must outlive the steps that use it.
 class ThreadPool {
  public:
-  /// `workers`: the thread that steps and `workers` - 1 others; 0: as many as the machine has processors. `awake`: for
-  /// so long a thread waits for the next stage before it sleeps; to wake it takes longer than most stages.
+  /// `workers`: number of threads, including the thread that steps; 0: the number of processors. `awake`: how long a
+  /// thread waits for the next stage before it sleeps. Waking a thread takes longer than most stages.
   explicit ThreadPool(uint32_t workers = 0, std::chrono::nanoseconds awake = std::chrono::microseconds(100));
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
   uint32_t workers() const { return static_cast<uint32_t>(threads_.size()) + 1; }
-  /// For WorldHooks::tasks of the configuration with this Tasks.
+  /// The value for WorldHooks::tasks. `Tasks`: the type of the configuration.
   template <class Tasks>
   Tasks tasks() {
     Tasks result;
@@ -37,15 +38,15 @@ class ThreadPool {
  private:
   static void run(void* context, uint32_t count, void (*task)(void*), void* argument);
   void work();
-  /// Waits for the next group of calls, without sleeping.
+  /// Waits without sleeping until the next group of calls begins, but at most for `awake_`.
   void stay_awake(uint32_t group) const;
-  /// Makes one of the calls that are left. Range: `lock` is held.
+  /// Makes one of the calls that no thread has begun. Range: `lock` is held.
   void call(std::unique_lock<std::mutex>& lock);
 
   const std::chrono::nanoseconds awake_;
   std::atomic<uint32_t> groups_ = 0;  ///< number of calls of run() so far
   std::mutex busy_;                   ///< held while a stage uses the pool
-  std::mutex mutex_;                  ///< of the members below
+  std::mutex mutex_;                  ///< protects the members below
   std::condition_variable begins_, ends_;
   void (*task_)(void*) = nullptr;
   void* argument_ = nullptr;

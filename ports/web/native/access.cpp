@@ -6,7 +6,7 @@
 #include "fields.h"
 #include "session.h"
 
-/// What a world says of itself, without a change.
+/// Functions that read a world and do not change it.
 namespace detent_web {
 namespace {
 
@@ -104,7 +104,8 @@ DETENT_WEB(world_joints) uint32_t world_joints(const Session* session) {
     visit(out, id);
   return count;
 }
-/// Takes a point (3), a rotation (4) and a JointDef, and gives the definition with its anchors and frames.
+/// Takes a point (3 doubles), a rotation (4 doubles) and a JointDef. Gives the definition with its anchors and frames
+/// set.
 DETENT_WEB(world_place_joint) uint32_t world_place_joint(const Session* session, uint32_t count) {
   Taker in(count);
   Position point = {};
@@ -136,7 +137,7 @@ DETENT_WEB(world_contacts) uint32_t world_contacts(const Session* session, uint3
   return count;
 }
 
-/// Gives the ids of the bodies within a sensor, and their number before them.
+/// Gives the number of bodies within a sensor, then their ids.
 DETENT_WEB(world_sensed) uint32_t world_sensed(const Session* session, uint32_t slot, uint32_t generation) {
   const BodyId sensor = taken_body(slot, generation);
   uint32_t count = 0;
@@ -152,7 +153,7 @@ DETENT_WEB(world_sensed) uint32_t world_sensed(const Session* session, uint32_t 
   return static_cast<uint32_t>(status);
 }
 
-/// Gives the events of the last step: each kind's number, then its events.
+/// Gives the events of the last step: for each kind the number of events, then the events.
 DETENT_WEB(world_events) void world_events(const Session* session) {
   const WorldHooks& hooks = session->world.hooks;
   const EventReport& counts = session->report.events;

@@ -6,7 +6,7 @@ namespace detent_web {
 
 using namespace detent;
 
-/// A recording in memory, to be read. It must stay where it is while a player reads it.
+/// A recording in memory, as a source of a player. The bytes and this object must not move while the player reads.
 struct ByteSource {
   const uint8_t* bytes = nullptr;
   uint32_t count = 0;

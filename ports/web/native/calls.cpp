@@ -7,8 +7,8 @@
 namespace detent_web {
 namespace {
 
-/// A kind of argument: its type, and how it is taken from the desk. In the float configurations several kinds have one
-/// type but different ranges.
+/// A kind of argument: its type, and how it is taken from the desk. In the float configurations, several kinds have the
+/// same type, but different ranges.
 template <class T, auto taken>
 struct Kind {
   using Type = T;

@@ -7,7 +7,7 @@
 #include "ports/host/detent/difference.h"
 #include "ports/host/detent/reading.h"
 
-/// The comparison of two recordings: that of `detent diff`, whose sources the page's module has, without files.
+/// Compares two recordings as `detent diff` does, with the same sources, but from memory instead of files.
 namespace detent_tool {
 
 std::unique_ptr<Input> Input::open(const std::string&, std::string& problem) {
@@ -52,7 +52,8 @@ AssetBytes asset_of(const Bytes& bytes) {
   return asset;
 }
 
-/// What the page marks: 1 and the slot of a body, or 2 and that of a joint; a contact marks both of its bodies.
+/// Gives what the page marks for a field: pairs of 1 and the slot of a body, or of 2 and the slot of a joint. A contact
+/// marks both of its bodies.
 void give(Giver& out, const FieldDifference& field) {
   const bool joint = field.element.kind == "joint";
   if (!joint && field.element.kind != "body" && field.element.kind != "contact" && field.element.kind != "sensor")
@@ -60,7 +61,7 @@ void give(Giver& out, const FieldDifference& field) {
   for (const uint32_t slot : field.element.slots) out.words(joint ? 2u : 1u, slot);
 }
 
-/// What the last comparison says. Never destroyed: a module has no end.
+/// The texts of the last comparison. Never destroyed, because a module has no end.
 struct Said {
   std::string text, stage;
 };
@@ -68,11 +69,12 @@ Said* said = nullptr;
 
 }  // namespace
 
-/// Compares two recordings. `given`: the address and the number of bytes of the first recording's name, of its bytes,
-/// of the second's, and of `asset_count` assets. Gives: 1 if they cannot be compared, 1 if they differ, 1 if one of
-/// them is damaged, 1 if only what comes after the last tick differs, the first and the last tick that both have, the
-/// last tick up to which they are equal, the tick that differs, the address and length of the text (as `detent diff`
-/// prints it) and of the stage, then pairs of what to mark. Returns the number of these pairs.
+/// Compares two recordings. `given` has pairs of an address and a number of bytes: the first recording's name, its
+/// bytes, the second recording's name, its bytes, and `asset_count` assets. Gives four flags: whether the recordings
+/// cannot be compared, whether they differ, whether one of them is damaged, whether only what follows the last tick
+/// differs. Then four ticks: the first and the last tick that both have, the last tick up to which they are equal, the
+/// tick that differs. Then the address and the length of the text that `detent diff` prints, and those of the stage's
+/// name. Then pairs of what to mark. Returns the number of these pairs.
 DETENT_WEB(compare_recordings) uint32_t compare_recordings(const Bytes* given, uint32_t asset_count) {
   const Recorded a = recorded_of(given[0], given[1]), b = recorded_of(given[2], given[3]);
   Assets assets;

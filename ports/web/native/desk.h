@@ -3,19 +3,19 @@
 #include <detent/status.h>
 #include <stdint.h>
 
-/// The interface between the module and JavaScript. Numbers cross it on the *desk*: consecutive doubles, in which a
-/// call finds its arguments and leaves its results. Every number of the library that a definition holds is a double
-/// there; only digests, which have 64 bits, are passed as integers.
+/// The interface between the module and JavaScript. Numbers are passed on the *desk*: an array of doubles, in which a
+/// call finds its arguments and leaves its results. Every number in a definition is converted to a double. Only
+/// digests, which have 64 bits, are passed as integers.
 #define DETENT_WEB(name) extern "C" __attribute__((export_name(#name), used))
 
 namespace detent_web {
 
 using namespace detent;
 
-/// Returns the desk, with room for `count` doubles; null if there is no memory. The desk may move.
+/// Returns the desk, with room for `count` doubles; null if there is no memory. The call may move the desk.
 double* desk_room(uint32_t count);
 
-/// Takes arguments from the desk. After the first wrong one, `status` is its status and all others are skipped.
+/// Takes arguments from the desk. `status` is the status of the first wrong argument.
 class Taker {
  public:
   explicit Taker(uint32_t count) : at_(desk_room(count)), left_(at_ == nullptr ? 0 : count) {}
@@ -78,7 +78,7 @@ class Giver {
   }
   void integer(int32_t value) { put(value); }
   void flag(bool value) { put(value ? 1 : 0); }
-  /// Exact up to 2^53.
+  /// Puts a 64-bit integer as a double. Exact up to 2^53.
   void count64(uint64_t value) { put(static_cast<double>(value)); }
   template <class Enum>
   void choice(Enum value) {

@@ -9,11 +9,12 @@
 #include "shape/hull.h"
 #include "state/view.h"
 
-/// What a program needs to draw a world: poses by one call, states and islands of the bodies, and outlines of shapes.
+/// What a program needs to draw a world: the poses of all bodies in one call, the states and islands of the bodies, and
+/// the outlines of shapes.
 namespace detent_web {
 namespace {
 
-/// A number that is the same only if the body looks the same.
+/// A hash of the members of a shape that determine how the body looks.
 uint32_t look_of(const Shape& shape) {
   uint32_t look = 2166136261u;  // FNV-1a
   const auto mix = [&look](uint64_t value) {
@@ -27,8 +28,8 @@ uint32_t look_of(const Shape& shape) {
   return look;
 }
 
-/// Islands by union-find over the slots: bodies that contacts or joints connect, as the solver groups them. Fixed and
-/// kinematic bodies connect nothing.
+/// The islands of a world, as the solver forms them: bodies that contacts or joints connect. Fixed and kinematic bodies
+/// connect nothing. Computed by union-find over the slots.
 class Islands {
  public:
   explicit Islands(const World& world)
@@ -63,12 +64,12 @@ class Islands {
   uint32_t* first_;
 };
 
-/// A part of an outline: points that are a convex core (kind 1) or triangles, three points each (kind 2), rounded by a
-/// ball. On the desk: kind, radius, number of points, x, y, z of each.
+/// A part of an outline, rounded by a ball. Kind 1: the points of a convex core. Kind 2: triangles of three points
+/// each. On the desk: kind, radius of the ball, number of points, then x, y, z of each point.
 class Outline {
  public:
   explicit Outline(uint32_t kind, double radius) {
-    // Parts follow each other on the desk: `count` goes on from the last one.
+    // Parts follow each other on the desk: this part begins where the last one ended.
     out_.count = desk_count;
     out_.put(kind);
     out_.put(radius);
@@ -119,7 +120,7 @@ void outline_compound(const Asset& asset) {
   }
 }
 
-/// In the body's axes, so that the body's pose moves it.
+/// Gives the triangles in the body's axes, so that a program can draw them at the body's pose.
 void outline_terrain(const World& world, BodyId id, const Pose& pose) {
   struct Context {
     Outline part;
@@ -136,8 +137,9 @@ void outline_terrain(const World& world, BodyId id, const Pose& pose) {
 
 }  // namespace
 
-/// Writes the pose of each body, by slot, relative to a camera at (x, y, z): seven floats (position, rotation) every
-/// `stride` floats. `to` has room for `bodies_max` of them. Returns the number of bodies written.
+/// Writes the pose of each body, in the order of slots, relative to a camera at (x, y, z). A pose is seven floats:
+/// position and rotation. The poses begin every `stride` floats. `to` has room for `bodies_max` poses. Returns the
+/// number of poses written.
 DETENT_WEB(world_poses)
 uint32_t world_poses(const Session* session, float* to, uint32_t stride, uint32_t bodies_max, double x, double y,
                      double z) {
@@ -157,8 +159,8 @@ uint32_t world_poses(const Session* session, float* to, uint32_t stride, uint32_
   return count;
 }
 
-/// Gives for each body, by slot: id, type, whether it is awake, whether it is a sensor, its island (the lowest slot of
-/// it), its speed and angular speed, and its look. Returns the number of bodies.
+/// Gives for each body, in the order of slots: id, type, whether it is awake, whether it is a sensor, the lowest slot
+/// of its island, its speed, its angular speed, and look_of() its shape. Returns the number of bodies.
 DETENT_WEB(world_bodies) uint32_t world_bodies(const Session* session) {
   const World& world = session->world;
   Islands islands(world);

@@ -6,7 +6,7 @@
 #include "desk.h"
 
 /// The fields of each definition, in the order in which they lie on the desk. `F` is Taker or Giver. src/fields.ts has
-/// the same lists; tests/web/fields_test.mjs passes every field through both.
+/// the same lists; tests/web/fields_test.mjs passes every field through the lists here and there.
 namespace detent_web {
 
 template <class F>
@@ -173,7 +173,7 @@ void visit(F& f, RollbackDef& def) {
   f.word(def.game_bytes);
 }
 
-/// The report's counts, by groups.
+/// Gives the counts of the report, group by group.
 inline void give(Giver& out, const StepReport& report) {
   out.count64(report.tick);
   out.words(report.bodies, report.awake, report.islands, report.substeps_max, report.woke, report.fell_asleep,

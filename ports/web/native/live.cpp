@@ -9,8 +9,8 @@
 #include "replay/replay_watch.h"
 #include "session.h"
 
-/// A world that begins as a recording does and goes on live: the recording's calls are made at their ticks, the page
-/// makes calls of its own, and a recorder logs both.
+/// A world that begins with the state at the start of a recording and goes on live. The recording's calls are made at
+/// their ticks, the page makes further calls, and a recorder logs both.
 namespace detent_web {
 namespace {
 
@@ -19,7 +19,7 @@ struct Live {
   Session session = {};
   ByteSource from = {};
   bool over = false;     ///< the recording has no more ticks
-  uint32_t refused = 0;  ///< of its calls: this world refused them, or gave another id
+  uint32_t refused = 0;  ///< number of the recording's calls that this world refused or gave another id
   TickResult tick = {};  ///< what the recording says of the present tick
   uint8_t buffer[k_recording_buffer_bytes];
   Player player = {from.source(), buffer, sizeof buffer};
@@ -42,8 +42,8 @@ void make_calls(Live& live) {
 
 }  // namespace
 
-/// Makes the world of a recording of `count` bytes, which the caller keeps, as it begins. Gives the address of its
-/// session. Errors: as start_session() and record_session().
+/// Makes a world with the state at the start of a recording of `count` bytes. The caller keeps the bytes alive. Gives
+/// the address of the world's session. Errors: as start_session() and record_session().
 DETENT_WEB(live_open)
 uint32_t live_open(const uint8_t* bytes, uint32_t count, const uint32_t* asset_at, uint32_t asset_count) {
   void* memory = malloc(sizeof(Live));
@@ -65,7 +65,8 @@ uint32_t live_open(const uint8_t* bytes, uint32_t count, const uint32_t* asset_a
 }
 
 /// Makes the recording's calls, and steps. Gives: whether the recording is over, whether it has a digest of this tick,
-/// whether this digest is the world's, how many of its calls could not be made so far, and the report.
+/// whether this digest equals the world's, the number of the recording's calls that could not be made so far, and the
+/// report.
 DETENT_WEB(live_step) void live_step(Live* live) {
   if (!live->over) make_calls(*live);
   live->session.report = live->session.recorder->step();
@@ -86,7 +87,8 @@ DETENT_WEB(live_recording) uint32_t live_recording(Live* live) {
   Bytes copy;
   if (!copy.append(session.recording.data, session.recording.count))
     return static_cast<uint32_t>(Status::buffer_too_small);
-  // As of a program that has stopped: a player finds where the whole part ends, and writes the end.
+  // Ends the copy as the recording of a program that was stopped: a player finds where the complete part ends, and
+  // writes the end chunk.
   ByteSource from = {session.recording.data, session.recording.count};
   uint8_t buffer[k_recording_buffer_bytes];
   Player player(from.source(), buffer, sizeof buffer);

@@ -20,7 +20,7 @@ void give(Giver& out, QueryHit& hit) {
   out.word(hit.material);
 }
 
-/// The fields that a shape at a place has in every query that takes one.
+/// Takes the fields of a query's shape and its pose.
 template <class Query>
 void take_shape(Taker& in, Query& query) {
   visit(in, query.shape);
@@ -71,8 +71,8 @@ Status answer(Session& session, Taker& in, Kind kind, QueryHits hits, QueryRepor
 
 }  // namespace
 
-/// Asks a query whose fields are `count` doubles on the desk. Gives the numbers of hits, of dropped and of undecided
-/// ones, then the hits.
+/// Asks a query whose fields are `count` doubles on the desk. Gives the number of hits, the number of dropped hits, the
+/// number of undecided hits, then the hits.
 DETENT_WEB(world_query) uint32_t world_query(Session* session, uint32_t kind, uint32_t count, uint32_t hits_max) {
   Taker in(count);
   QueryHit* hits = hits_max > 1u << 20 ? nullptr : static_cast<QueryHit*>(malloc((hits_max + 1) * sizeof(QueryHit)));

@@ -11,7 +11,7 @@ namespace detent_web {
 namespace {
 
 /// A recording in memory that is being replayed. The first member is the session, so that all functions that read a
-/// world also read that of a replay.
+/// world can also read the world of a replay.
 struct Replay {
   Session session = {};
   ByteSource from;
@@ -32,8 +32,8 @@ Status reopen(Replay& replay) {
 
 }  // namespace
 
-/// Opens a recording of `count` bytes, which the caller keeps. Returns its replay, or null without memory.
-/// replay_info() tells whether it can be replayed.
+/// Opens a recording of `count` bytes, which the caller keeps alive. Returns its replay, or null if there is no memory.
+/// replay_info() tells whether the recording can be replayed.
 DETENT_WEB(replay_open) Replay* replay_open(const uint8_t* bytes, uint32_t count) {
   void* memory = malloc(sizeof(Replay));
   if (memory == nullptr) return nullptr;
@@ -61,7 +61,8 @@ DETENT_WEB(replay_info) void replay_info(Replay* replay) {
   out.word(info.snapshot_bytes);
   out.word(info.keyframe_interval);
 }
-/// Gives where and why the replay stopped: status, tick, offset, and the address of the name of the wrong item.
+/// Gives where and why the replay stopped: status, tick, offset in the recording, bytes, and the address of the name of
+/// the wrong item.
 DETENT_WEB(replay_error) void replay_error(Replay* replay) {
   const ReplayError& error = replay->player().error();
   Giver out;
@@ -83,8 +84,9 @@ DETENT_WEB(replay_start) uint32_t replay_start(Replay* replay, const uint32_t* a
       start_session(replay->session, replay->player(), replay->from.count, asset_at, asset_count));
 }
 
-/// Plays one tick and compares its digest (`world` 1), or only reads its bytes. Gives: whether the recording has ended,
-/// whether there was a digest to compare, the tick, the number of calls before it, and the step's report.
+/// Plays one tick and compares its digest, or, if `world` is 0, only reads the bytes of the tick. Gives: whether the
+/// recording has ended, whether there was a digest to compare, the tick, the number of calls before it, and the step's
+/// report.
 DETENT_WEB(replay_next) uint32_t replay_next(Replay* replay, uint32_t world) {
   Player& player = replay->player();
   const Status status =
@@ -104,8 +106,8 @@ DETENT_WEB(replay_next) uint32_t replay_next(Replay* replay, uint32_t world) {
 DETENT_WEB(replay_go_to) uint32_t replay_go_to(Replay* replay, double tick) {
   return static_cast<uint32_t>(replay->player().go_to(replay->session.world, static_cast<uint64_t>(tick)));
 }
-/// Goes to a snapshot that world_save() made during this replay, also after the replay has stopped with an error. Every
-/// byte is checked, as of a snapshot of any origin.
+/// Goes to a snapshot that world_save() made during this replay, even after the replay has stopped with an error.
+/// Checks every byte of the snapshot, as if its origin were unknown.
 DETENT_WEB(replay_resume) uint32_t replay_resume(Replay* replay, uint8_t* bytes, uint32_t count) {
   if (const Status status = load(replay->session.world, bytes, count); status != Status::ok)
     return static_cast<uint32_t>(status);

@@ -6,7 +6,7 @@
 #include "fields.h"
 #include "session.h"
 
-/// Rollback sessions. JavaScript checks the lengths of inputs, and that numbers are whole; all else the library checks.
+/// Rollback sessions. JavaScript checks the lengths of inputs, and that numbers are whole. The library checks all else.
 namespace detent_web {
 namespace {
 
@@ -18,10 +18,10 @@ struct Rollback {
   uint8_t* memory = nullptr;
   uint8_t* game = nullptr;
   RollbackSession session;
-  uint8_t input[k_rollback_input_bytes_max];  ///< of the next call, or the result of the last one
+  uint8_t input[k_rollback_input_bytes_max];  ///< the input for the next call, or the result of the last call
 };
 
-/// Leaves the inputs on the desk, and lets JavaScript make the tick.
+/// Puts the inputs on the desk, and calls the function of JavaScript that makes the tick.
 void make_tick(void* context, World&, const TickInputs& inputs) {
   Rollback& rollback = *static_cast<Rollback*>(context);
   Giver out;
@@ -60,10 +60,10 @@ Status open(Rollback& rollback) {
 
 }  // namespace
 
-/// Takes a RollbackDef of `count` doubles from the desk. `make` is called with the session for each tick; its inputs
-/// are then on the desk: the tick, the address of the inputs, the predicted players, whether the tick is repeated.
-/// Gives the addresses of the session, of its input, and of the game's bytes. Errors: as RollbackSession::begin();
-/// buffer_too_small without memory; bad_argument for a world that is recorded or has a session.
+/// Takes a RollbackDef of `count` doubles from the desk. The session calls `make` for each tick. On the desk are then:
+/// the tick, the address of the inputs, the bits of the predicted players, whether the tick is repeated. Gives the
+/// addresses of the session, of Rollback::input, and of the game's bytes. Errors: as RollbackSession::begin();
+/// buffer_too_small if there is no memory; bad_argument for a world that is recorded or already has a session.
 DETENT_WEB(rollback_open) uint32_t rollback_open(Session* world, void (*make)(Rollback*), uint32_t count) {
   RollbackDef def;
   Taker in(count);
@@ -90,7 +90,7 @@ DETENT_WEB(rollback_close) void rollback_close(Rollback* rollback) {
   close(rollback);
 }
 
-/// Adds the session's input. Gives the tick in which it acts.
+/// Adds Rollback::input as the next input of a local player. Gives the tick in which the input acts.
 DETENT_WEB(rollback_add_local_input) uint32_t rollback_add_local_input(Rollback* rollback, uint32_t player) {
   uint64_t tick = 0;
   const Status status = rollback->session.add_local_input(player, rollback->input, tick);
@@ -101,12 +101,13 @@ DETENT_WEB(rollback_add_local_input) uint32_t rollback_add_local_input(Rollback*
 DETENT_WEB(rollback_add_input) uint32_t rollback_add_input(Rollback* rollback, uint32_t player, double tick) {
   return static_cast<uint32_t>(rollback->session.add_input(player, static_cast<uint64_t>(tick), rollback->input));
 }
-/// Writes to the session's input.
+/// Writes a known input of a player to Rollback::input.
 DETENT_WEB(rollback_get_input) uint32_t rollback_get_input(Rollback* rollback, uint32_t player, double tick) {
   return static_cast<uint32_t>(rollback->session.get_input(player, static_cast<uint64_t>(tick), rollback->input));
 }
 
-/// Makes a tick (`more` 1) after those that are repeated, or only repeats. Gives the report.
+/// Repeats the ticks that were simulated with wrong inputs, and then, unless `more` is 0, simulates the next tick.
+/// Gives the report.
 DETENT_WEB(rollback_advance) uint32_t rollback_advance(Rollback* rollback, uint32_t more) {
   RollbackSession& session = rollback->session;
   World& world = rollback->world->world;
@@ -129,7 +130,7 @@ DETENT_WEB(rollback_next_input) double rollback_next_input(const Rollback* rollb
   return static_cast<double>(rollback->session.next_input(player));
 }
 
-/// Gives the number of checksums, at most `count`, and each with its tick.
+/// Gives the number of checksums, at most `count`, then for each its tick and its value.
 DETENT_WEB(rollback_checksums) void rollback_checksums(const Rollback* rollback, uint32_t count) {
   constexpr uint32_t kept = rollback_ticks_kept(k_rollback_window_max);
   TickChecksum last[kept];
@@ -145,7 +146,7 @@ DETENT_WEB(rollback_add_checksum)
 uint32_t rollback_add_checksum(Rollback* rollback, uint32_t player, double tick, uint32_t checksum) {
   return static_cast<uint32_t>(rollback->session.add_checksum(player, {static_cast<uint64_t>(tick), checksum}));
 }
-/// Gives whether the machines differ, the tick, the player, and both checksums.
+/// Gives whether the machines differ, the first tick that is known to differ, the player, and both checksums.
 DETENT_WEB(rollback_desync) void rollback_desync(const Rollback* rollback) {
   const Desync& desync = rollback->session.desync();
   Giver out;

@@ -34,7 +34,7 @@ uint8_t* place(Buffer& buffer, uint32_t capacity, uint8_t* memory) {
   return memory + (sizeof(Event) * capacity + 7) / 8 * 8;
 }
 
-/// Room for the events of an ordinary step. Larger steps lose events, and their reports say so.
+/// Makes room for the events of an ordinary step. A step with more events drops some, and its report counts them.
 Status place_events(Session& session, const Capacity& capacity) {
   const uint64_t contacts = uint64_t{2} * capacity.contacts + 16, sensed = uint64_t{2} * capacity.sensed;
   const uint64_t bytes = contacts * sizeof(ContactEvent) + capacity.joints * sizeof(JointEvent) +
@@ -108,7 +108,7 @@ Status record_session(Session& session, const RecordingDef& def) {
   return session.recorder->begin(def);
 }
 
-/// Takes a WorldDef of `count` doubles from the desk, and gives the address of the session on it. Errors: as
+/// Takes a WorldDef of `count` doubles from the desk, and gives the address of the new session. Errors: as
 /// open_session().
 DETENT_WEB(world_create) uint32_t world_create(uint32_t count, const uint32_t* asset_at, uint32_t asset_count) {
   WorldDef def;
@@ -140,7 +140,7 @@ DETENT_WEB(world_record) uint32_t world_record(Session* session, uint32_t digest
   return static_cast<uint32_t>(record_session(*session, {digest_interval, keyframe_interval}));
 }
 
-/// Ends the recording; gives its address and the number of its bytes, which are valid until the next call.
+/// Ends the recording. Gives the address and the number of its bytes. The bytes are valid until the next call.
 DETENT_WEB(world_end_recording) uint32_t world_end_recording(Session* session) {
   const Status status = session->recorder->end();
   Giver out;
@@ -167,7 +167,7 @@ DETENT_WEB(world_snapshot_bytes) uint32_t world_snapshot_bytes(const Session* se
 DETENT_WEB(world_save) uint32_t world_save(const Session* session, uint8_t* bytes, uint32_t count) {
   return static_cast<uint32_t>(save(session->world, bytes, count));
 }
-/// Restores a snapshot of any origin: every byte is checked.
+/// Restores a snapshot of unknown origin: checks every byte.
 DETENT_WEB(world_load) uint32_t world_load(Session* session, uint8_t* bytes, uint32_t count) {
   return static_cast<uint32_t>(load(session->world, bytes, count));
 }
