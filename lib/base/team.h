@@ -71,7 +71,7 @@ class Team {
   }
   /// Number of elements above which a loop is shared.
   uint32_t few(uint32_t grain) const { return tasks_.least == 1 ? 0 : grain; }
-  /// Number of bodies or contacts from which on an island's loops are shared.
+  /// The threads share the loops of an island with at least this many bodies or contacts.
   uint32_t many() const { return tasks_.least == 1 ? 4 : least_of(tasks_); }
 
   /// Adds to a number that several threads add to. Returns the number before.

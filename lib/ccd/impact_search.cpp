@@ -78,12 +78,12 @@ __attribute__((noinline)) void find_near(ImpactStage& stage, uint32_t slot) {
   });
 }
 
-/// Whether two bodies may touch and their bounds overlap.
+/// Whether the bounds of two bodies overlap and may_collide() is true.
 bool are_near(const ImpactStage& stage, uint32_t slot, uint32_t other) {
   return overlap(stage.bounds_of(slot), stage.bounds_of(other)) && may_collide(stage, slot, other);
 }
 
-/// Visits all other bodies that may touch `slot` and whose bounds overlap its bounds, in the order of their slots.
+/// Visits all other bodies for which are_near() is true, in the order of their slots.
 template <class Visit>
 void for_each_near(ImpactStage& stage, uint32_t slot, const Visit& visit) {
   find_near(stage, slot);

@@ -107,8 +107,9 @@ class PairTests {
   /// What the tests would have counted if each group had known the other body, minus what they counted.
   ImpactReport correction = {};
 
-  /// Whether the tests still find no event if each is made with the states that both bodies have at its time in the
-  /// global order. If so, adds to `correction`.
+  /// Repeats the tests of the two bodies. Each test is made with the states that both bodies have, in the global order,
+  /// at the time of the test. Returns true if no repeated test finds an event; `correction` then includes the changes
+  /// of the counts. Returns false also if a body was moved without a later test, or if two tests have the same time.
   bool agree(const WarpGroup& group_a, const WarpBody& a, const WarpGroup& group_b, const WarpBody& b) {
     if ((a.moved | b.moved | a.moved_untested | b.moved_untested) != 0) return false;
     const uint32_t slots[2] = {a.slot, b.slot};

@@ -208,8 +208,9 @@ bool Builder::fill(const Reference& reference, bool reference_is_a, const Featur
   while (choice.again());
   const Vec32 normal = reference_is_a ? reference.up() : negate(reference.up());
   if (choice.count() == 0) return false;
-  // The polygon that represents a round face (supporting_face()) may not reach the point on the axis. That point is
-  // then added.
+  // A round face is represented by an octagon inscribed in its rim (supporting_face()), so the contact point on the
+  // axis can lie outside the polygon. That point is added if it is deeper than all chosen points by more than drop_. If
+  // four points are chosen, it replaces the one nearest to it. With only_over_, it must lie over the reference face.
   int deepest = 0;
   for (int i = 1; i < choice.count(); ++i) deepest = choice[i].w < choice[deepest].w ? i : deepest;
   const Vec32 nearest = add(other.centre, reference_is_a ? axis_.point_b : axis_.point_a);

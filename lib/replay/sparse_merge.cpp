@@ -198,7 +198,7 @@ bool SparseTick::merge(const StateView<uint8_t>& block) {
         if (has_manifolds) block.manifolds[k] = after.manifolds[i];
       });
 
-  // Removes pairs of a visible body and a visible sensor that both are not inside.
+  // Removes the pairs of a visible sensor and a visible body if neither of them is in `inside` (SparseTick).
   uint32_t sensed = 0;
   for (uint32_t i = 0; i < block.world.sensed_count; ++i) {
     const SensedState pair = block.sensed[i];
@@ -242,7 +242,7 @@ bool SparseTick::merge_events(const WorldHooks& hooks, StepReport& report) const
   const auto is_before = [](uint32_t a, uint32_t b, uint32_t other_a, uint32_t other_b) {
     return a != other_a ? a < other_a : b < other_b;
   };
-  // Removes events of a visible body and a visible sensor that both are not inside.
+  // Removes the events of a visible sensor and a visible body if neither of them is in `inside` (SparseTick).
   const Span<SensorEvent> sensed = room_of(hooks.sensor_events);
   uint32_t kept = 0;
   for (uint32_t i = 0; i < events.sensor; ++i) {

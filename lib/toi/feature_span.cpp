@@ -55,7 +55,7 @@ bool parted(const Vec32* point, int count, int64_t ball) {
   }
 }
 
-/// Whether a coordinate axis separates all corners from the origin.
+/// Whether a coordinate axis separates all corners from the cube around the origin with half edge `ball`.
 bool parted_by_bounds(const ShortSpan& span) {
   Vec32 low = span.corner[0], high = low;
   for (int i = 1; i < 2 * span.count; ++i) {

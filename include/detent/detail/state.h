@@ -185,7 +185,8 @@ struct alignas(8) JointState {
   Scaled break_torque;
   Vec3<Scaled> force;   ///< on B in the last tick, N, world
   Vec3<Scaled> torque;  ///< on B in the last tick, N m, world
-  /// Of the joint's rows, from the last substep, m/s, scaled by k_kept_power (lib/joint/joint.h).
+  /// Impulses of the joint's rows in the last substep, times (number of substeps) / 2^k_kept_power
+  /// (lib/joint/joint.h), m/s.
   Real impulse[k_joint_rows_max];
 };
 
