@@ -98,8 +98,7 @@ struct Table {
     file << "# Errors of the number layer\n\n"
             "The tests in tests/unit/math (`numbers_test`) write this page; they compare with MPFR. `fx32` gives the "
             "bits of `fx64`\nin every line. \"exhaustive\": every argument of the domain was tested. \"strided\": only "
-            "a "
-            "fixed sequence of arguments was\ntested, so the largest error over the domain may be greater.\n\n"
+            "a fixed sequence of arguments was\ntested, so the largest error over the domain may be greater.\n\n"
             "| configuration | kernel | domain | rounding | max error | unit | bound | at | arguments |\n"
             "|---|---|---|---|---|---|---|---|---|\n";
     for (const auto& line : lines) file << line.second << "\n";
