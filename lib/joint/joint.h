@@ -202,11 +202,9 @@ int free_motion_count(JointType type);
 int driven_motion_count(const JointState& joint);
 /// Whether the free motion has limits.
 bool is_limited(const JointState& joint, int motion);
-/// Whether a limit, spring, motor or friction can act on the free motion.
-bool is_driven(const JointState& joint, int motion);
 /// Whether friction acts on the free motion.
 bool is_braked(const JointState& joint, int motion);
-/// The free motions on which something can act: bit i for free motion i.
+/// The free motions on which a limit, spring, motor or friction can act: bit i for free motion i.
 uint32_t driven_motions(const JointState& joint);
 /// The members of JointRows that make_joint_rows() sets: all, or only `locked_rows`, `points`, `arm`, `error`, and the
 /// values of the free motions (`errors`).

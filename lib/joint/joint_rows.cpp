@@ -411,10 +411,6 @@ bool is_limited(const JointState& joint, int motion) {
   return static_cast<uint32_t>(motion) < free_motions && joint.limited[motion] != 0;
 }
 
-bool is_driven(const JointState& joint, int motion) {
-  return is_limited(joint, motion) || free_mode(joint, motion) != DriveMode::idle;
-}
-
 bool is_braked(const JointState& joint, int motion) {
   return is_positive(joint.friction[is_angular(static_cast<JointType>(joint.type), motion) ? 1 : 0]);
 }
@@ -425,7 +421,9 @@ bool is_angular(JointType type, int motion) {
 
 uint32_t driven_motions(const JointState& joint) {
   uint32_t motions = 0;
-  for (int i = 0; i < driven_motion_count(joint); ++i) motions |= is_driven(joint, i) ? 1u << i : 0u;
+  for (int i = 0; i < driven_motion_count(joint); ++i) {
+    if (is_limited(joint, i) || free_mode(joint, i) != DriveMode::idle) motions |= 1u << i;
+  }
   return motions;
 }
 
