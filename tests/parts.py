@@ -163,7 +163,7 @@ class Part:
         configs = configs_of(row).replace(" ", ";")
         tested, _, programs = chosen(row["unit_tests"]).partition(":")
         options = [f"-DDETENT_CONFIGS={configs}", f"-DDETENT_CONFIG={configs.split(';')[0]}", "-DDETENT_TESTS=ON",
-                   "-DDETENT_TOOLS=OFF", "-DDETENT_EXAMPLES=OFF", *shlex.split(row["options"]),
+                   "-DDETENT_TOOLS=OFF", "-DDETENT_EXAMPLES=OFF", "-DDETENT_UNITY_TESTS=ON", *shlex.split(row["options"]),
                    f"-DDETENT_TESTED_CONFIGS={tested.strip().replace(' ', ';') or 'none'}",
                    f"-DDETENT_TESTED_PROGRAMS={programs.strip() or '.*'}"]
         variant = row["flags"] != ""

@@ -65,10 +65,10 @@ struct ContactManifold {
 /// their common outline.
 ///
 /// The points are corners of the contact area: the intersection of the two supporting faces or edges, projected along
-/// the normal. The contact area may extend beyond the sides of a face by 1/64 of the smaller of two lengths: the least
-/// distance of a side from the face's middle, and the bounding radius of the other core. `reduction` selects four
-/// points if there are more. A face of more than 32 vertices is represented by 32 extreme
-/// vertices. The flat side of a cylinder or cone is represented by 8 points of its rim and the deepest point.
+/// the normal. Edges are cut at the sides of a face. A vertex may lie beyond a side by up to 1/64 of the smaller of two
+/// lengths: the least distance of a side from the face's middle, and the bounding radius of the other core. `reduction`
+/// selects four points if there are more. A face of more than 32 vertices is represented by 32 extreme vertices. The
+/// flat side of a cylinder or cone is represented by 8 points of its rim and the deepest point.
 ///
 /// Precision: as closest_points(). Errors: bad_argument for two half-spaces; not_normalised; out_of_range for
 /// distance_max < 0 and NaN, and as closest_points() for a half-space.

@@ -18,16 +18,6 @@ Vec3<Real> scaled(const Vec3<Real>& v, Scaled factor) {
   return multiply(v, factor, saturated);
 }
 
-/// Twice the kinetic energy of rotation per unit mass, m^2/s^2. `local`: the angular momentum as in BodyMotion, but in
-/// the body's axes.
-Scaled energy_of(const BodyProperties& properties, const Vec3<Real>& local) {
-  const auto term = [&](Real value, int i) {
-    const Scaled factor = scaled_from(value);
-    return multiply(multiply(factor, factor), properties.inverse_inertia[i]);
-  };
-  return add(term(local.x, 0), add(term(local.y, 1), term(local.z, 2)));
-}
-
 /// True if one principal moment of inertia is more than 16 times another.
 bool is_slender(const BodyProperties& properties) {
   Scaled least = properties.inverse_inertia[0], most = least;
@@ -99,7 +89,7 @@ struct Impact {
     bool saturated = false;
     const Real limit = multiply(normal, contact.friction, saturated);
     Real after[2];
-    for (int i = 0; i < 2; ++i) after[i] = friction_impulse[i] - motion[k_along_first + i] * contact.friction_mass[i];
+    for (int i = 0; i < 2; ++i) after[i] = friction_impulse[i] - motion[k_along_first + i] * contact.friction_mass;
     const Real size = length(Vec3<Real>{after[0], after[1], k_zero});
     const bool slides = size > limit;
     const Real factor = slides ? divide(limit, size) : k_zero;
@@ -139,8 +129,7 @@ struct Impact {
 uint32_t clamp_rotation(const BodyProperties& properties, Real tick_time, BodySweep& sweep) {
   bool clamped = false;
   const Real limit = angle_of(k_angular_velocity_max * tick_time, properties.size_exponent, clamped);
-  const Real fastest =
-      max(abs(sweep.rotation_vector.x), max(abs(sweep.rotation_vector.y), abs(sweep.rotation_vector.z)));
+  const Real fastest = greatest(sweep.rotation_vector);
   if (fastest <= limit) return 0;
   const Real factor = divide(limit, fastest);
   sweep.rotation_vector = {sweep.rotation_vector.x * factor, sweep.rotation_vector.y * factor,
@@ -162,7 +151,8 @@ Vec3<Real> carried_angular_momentum(const BodyProperties& properties, const Quat
                                     const Vec3<Real>& angular_momentum) {
   if (is_isotropic(properties) || from == to) return angular_momentum;
   const Vec3<Real> before = rotate_inverse(from, angular_momentum), after = rotate_inverse(to, angular_momentum);
-  const Scaled energy_before = energy_of(properties, before), energy_after = energy_of(properties, after);
+  const Scaled energy_before = rotational_energy(properties, before),
+               energy_after = rotational_energy(properties, after);
   if (!less(add(energy_before, scaled_by_power(energy_before, -16)), energy_after)) return angular_momentum;
   if (is_slender(properties) || less(add(energy_before, scaled_by_power(energy_before, -2)), energy_after))
     return rotate(to, before);

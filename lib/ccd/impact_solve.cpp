@@ -86,7 +86,7 @@ Position point_of(const ContactGeometry& geometry, const BodyPose& pose_a, const
   Vec3<Real> sum = k_zero_vector;
   for (uint32_t i = 0; i < geometry.count; ++i) {
     const Vec3<Unit> arm = (by_b ? geometry.point[i].arm_b : geometry.point[i].arm_a) * k_share[geometry.count - 1];
-    sum += {real_from_unit(arm.x, exponent), real_from_unit(arm.y, exponent), real_from_unit(arm.z, exponent)};
+    sum += real_from_unit(arm, exponent);
   }
   return moved((by_b ? pose_b : pose_a).position, sum);
 }
@@ -175,7 +175,7 @@ bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geo
              fall_speed(stage.settings, extent_a)},
             {properties_b, pose_b, before_b, inverse_inertia_b, angular_velocity_b, extent_b,
              fall_speed(stage.settings, extent_b)},
-            geometry, contact);
+            geometry, k_zero, contact);
   BodyMotion after_a = before_a, after_b = before_b;
   Real approach = k_zero;
   const Real parting = again ? k_zero : parting_speed(stage, pair, contact, geometry.count);

@@ -174,9 +174,10 @@ uint32_t crossing_label(uint32_t edge_label, uint32_t side) {
   return 20 + (u_side & 1) + 2 * (v_side & 1);
 }
 
-/// Clips a polygon at one side of the face and returns the number of vertices kept. The condition is
-/// u <= limit for side 0, -u <= limit for side 1, v <= limit for side 2, -v <= limit for side 3.
-uint32_t clip_side(const FaceVertex* in, uint32_t count, uint32_t side, Unit limit, FaceVertex* out) {
+/// Clips a polygon at one side of the face and returns the number of vertices kept. Keeps vertices up to `slack` beyond
+/// the side, but cuts an edge at the side itself if its inner end is not beyond the side. The side is at u = limit for
+/// side 0, -u = limit for side 1, v = limit for side 2, -v = limit for side 3.
+uint32_t clip_side(const FaceVertex* in, uint32_t count, uint32_t side, Unit limit, Unit slack, FaceVertex* out) {
   const auto beyond = [&](const FaceVertex& p) {
     const Unit across = side < 2 ? p.u : p.v;
     return ((side & 1) != 0 ? -across : across) - limit;
@@ -186,10 +187,11 @@ uint32_t clip_side(const FaceVertex* in, uint32_t count, uint32_t side, Unit lim
     const FaceVertex& p = in[i];
     const FaceVertex& q = in[i + 1 == count ? 0 : i + 1];
     const Unit p_beyond = beyond(p), q_beyond = beyond(q);
-    const bool p_inside = p_beyond <= Unit(0.0), q_inside = q_beyond <= Unit(0.0);
+    const bool p_inside = p_beyond <= slack, q_inside = q_beyond <= slack;
     if (p_inside) out[kept++] = p;
     if (p_inside == q_inside) continue;
-    const Unit part = divide(p_beyond, p_beyond - q_beyond);
+    const Unit cut = (p_inside ? p_beyond : q_beyond) < Unit(0.0) ? Unit(0.0) : slack;
+    const Unit part = divide(p_beyond - cut, p_beyond - q_beyond);
     FaceVertex crossing = {p.u + (q.u - p.u) * part, p.v + (q.v - p.v) * part, p.w + (q.w - p.w) * part, 0, 0};
     crossing.label = crossing_label(p.edge_label, side);
     crossing.edge_label = p_inside ? 4 + side : p.edge_label;
@@ -243,10 +245,6 @@ __attribute__((noinline)) void collide_face(const PairShape& reference, const Pa
   const Vec3<Unit> normal = flipped ? -axis : axis;
   const Vec3<Unit>& axis_u = reference.rotation.column[next_of_three(face)];
   const Vec3<Unit>& axis_v = reference.rotation.column[previous_of_three(face)];
-  // A vertex barely beyond a side of the face is not clipped. Otherwise equal boxes that are stacked flush would change
-  // features, and lose their impulses, at the slightest jitter.
-  const Unit slack = scale_by_power(min(half.v[next_of_three(face)], half.v[previous_of_three(face)]), -6);
-  const Unit limit_u = half.v[next_of_three(face)] + slack, limit_v = half.v[previous_of_three(face)] + slack;
 
   int opposed = 0;
   Unit opposition = -1.0;
@@ -257,6 +255,11 @@ __attribute__((noinline)) void collide_face(const PairShape& reference, const Pa
       opposed = i;
     }
   }
+  // A vertex barely beyond a side of the face is not clipped. Otherwise equal boxes that are stacked flush would change
+  // features, and lose their impulses, at the slightest jitter.
+  Unit smallest = half.v[0];
+  for (int i = 0; i < 3; ++i) smallest = min(smallest, min(half.v[i], other.v[i]));
+  const Unit slack = scale_by_power(smallest, -6);
   const Vec3<Unit>& incident_axis = incident.rotation.column[opposed];
   const Unit side = -sign_of(dot(normal, incident_axis));
   const Vec3<Unit> middle = between + incident_axis * (other.v[opposed] * side);
@@ -265,13 +268,20 @@ __attribute__((noinline)) void collide_face(const PairShape& reference, const Pa
   const Vec3<Unit> corner[4] = {middle + first + second, middle - first + second, middle - first - second,
                                 middle + first - second};
   FaceVertex polygon[k_face_vertices_max], clipped[k_face_vertices_max];
-  for (uint32_t i = 0; i < 4; ++i) {
-    polygon[i] = {dot(axis_u, corner[i]), dot(axis_v, corner[i]), dot(normal, corner[i]) - half.v[face], i, i};
+  uint32_t count = 0;
+  for (Unit moved = 0.0;; moved = slack) {
+    for (uint32_t i = 0; i < 4; ++i) {
+      polygon[i] = {dot(axis_u, corner[i]), dot(axis_v, corner[i]), dot(normal, corner[i]) - half.v[face], i, i};
+    }
+    const Unit limit_u = half.v[next_of_three(face)] + moved, limit_v = half.v[previous_of_three(face)] + moved;
+    const Unit beyond = slack - moved;
+    count = clip_side(polygon, 4, 0, limit_u, beyond, clipped);
+    count = clip_side(clipped, count, 1, limit_u, beyond, polygon);
+    count = clip_side(polygon, count, 2, limit_v, beyond, clipped);
+    count = clip_side(clipped, count, 3, limit_v, beyond, polygon);
+    // If the faces only meet beyond a corner, the sides are moved outward.
+    if (count != 0 || beyond == Unit(0.0)) break;
   }
-  uint32_t count = clip_side(polygon, 4, 0, limit_u, clipped);
-  count = clip_side(clipped, count, 1, limit_u, polygon);
-  count = clip_side(polygon, count, 2, limit_v, clipped);
-  count = clip_side(clipped, count, 3, limit_v, polygon);
 
   manifold.normal = reference_is_a ? normal : -normal;
   const uint32_t faces = (reference_is_a ? 0u : 1u) + 2 * (2 * static_cast<uint32_t>(face) + (flipped ? 1u : 0u)) +
@@ -281,8 +291,6 @@ __attribute__((noinline)) void collide_face(const PairShape& reference, const Pa
     if (polygon[i].w <= frame.margin) polygon[near++] = polygon[i];
   }
   uint32_t chosen[k_manifold_points_max];
-  Unit smallest = half.v[0];
-  for (int i = 0; i < 3; ++i) smallest = min(smallest, min(half.v[i], other.v[i]));
   const Unit drop = scale_by_power(smallest, -10);
   const uint32_t chosen_count = choose_corners(polygon, near, frame.reduction, drop, chosen);
   for (uint32_t i = 0; i < chosen_count; ++i) {

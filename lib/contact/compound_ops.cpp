@@ -60,10 +60,7 @@ uint32_t name_of_part(uint32_t part, uint32_t name) {
 
 Vec64 raw_offset(const Vec3<Unit>& arm, int32_t exponent, bool& known) {
   Vec64 raw = {0, 0, 0};
-  known =
-      raw_from_real({real_from_unit(arm.x, exponent), real_from_unit(arm.y, exponent), real_from_unit(arm.z, exponent)},
-                    raw) &&
-      known;
+  known = raw_from_real(real_from_unit(arm, exponent), raw) && known;
   return raw;
 }
 

@@ -156,10 +156,9 @@ AreaPoint Reference::over(const Vec32& point) const {
   return {p.u, p.v, p.w, AreaPoint::Kind::vertex, 0, 0};
 }
 
-bool Reference::holds(const Vec32& point) const {
-  const Flat p = flat(point);
+bool Reference::holds(const Flat& p) const {
   for (int i = 0; i < side_count_; ++i) {
-    if (beyond(p, i) > 0) return false;
+    if (beyond(p, i) > slack_at(i)) return false;
   }
   return true;
 }
@@ -193,43 +192,41 @@ void Reference::add_sides(const Vec32& centre, int32_t size, int64_t aside) {
   }
   inner = inner >> 30 < size ? inner >> 30 : size;
   slack_ = inner > 0 ? inner >> k_slack_power : 0;
-  for (int i = 0; i < side_count_; ++i) {
-    if (side_[i].limit != k_no_limit) side_[i].limit += slack_ * k_one_64;
-  }
   if (feature_->is_face()) return;
   side_[side_count_++] = {0, k_one, aside * k_one_64};
   side_[side_count_++] = {0, -k_one, aside * k_one_64};
 }
 
 void Reference::clip_edge(const Flat& p, const Flat& q, uint8_t from, bool closed, AreaChoice& choice) const {
-  int64_t enters = 0, leaves = k_one_64;
+  int64_t enters = -1, leaves = k_one_64 + 1;  // parts of the edge, Q30
   int entered = -1, left = -1;
   for (int i = 0; i < side_count_; ++i) {
-    const int64_t at_p = beyond(p, i), at_q = beyond(q, i);
-    if (at_p > 0 && at_q > 0) return;
-    if (at_p > 0) {
-      const int64_t t = fraction(at_p, at_p - at_q);
-      if (entered < 0 || t > enters) {
-        enters = t;
-        entered = i;
-      }
-    } else if (at_q > 0) {
-      const int64_t t = fraction(-at_p, at_q - at_p);
-      if (left < 0 || t < leaves) {
-        leaves = t;
-        left = i;
-      }
+    const int64_t at_p = beyond(p, i), at_q = beyond(q, i), slack = slack_at(i);
+    const bool enters_here = at_p > slack;
+    if (enters_here && at_q > slack) return;
+    if (!enters_here && at_q <= slack) continue;
+    const int64_t inner = enters_here ? at_q : at_p, outer = enters_here ? at_p : at_q;
+    const int64_t from_inner = inner >= 0 ? 0 : fraction(-inner, outer - inner);
+    if (enters_here && k_one_64 - from_inner > enters) {
+      enters = k_one_64 - from_inner;
+      entered = i;
+    } else if (!enters_here && from_inner < leaves) {
+      leaves = from_inner;
+      left = i;
     }
   }
   if (enters > leaves) return;
-  const bool aside_of_edge = feature_ != nullptr && !feature_->is_face();
+  const int only = left < 0 ? entered : entered < 0 ? left : -1;  // the side that cuts the edge, if it is one
+  // The inner end stands for the crossing if it is near.
+  const bool near = only >= 0 && beyond(left < 0 ? q : p, only) >= -slack_at(only);
   const auto crossing = [&](int64_t t, int side, uint8_t end) {
+    if (near) return;
     const auto between = [t](int64_t a, int64_t b) { return a + (((b - a) * t) >> 30); };
     AreaPoint point = {between(p.u, q.u),         between(p.v, q.v), between(p.w, q.w), AreaPoint::Kind::crossing, from,
                        static_cast<uint8_t>(side)};
     // The sides with an index of feature_->count or more limit the lateral distance from a reference edge. A point
     // clipped at one of them still counts as the end of the incident edge.
-    if (aside_of_edge && side >= feature_->count) {
+    if (side >= feature_->count) {
       point.kind = AreaPoint::Kind::vertex;
       point.incident = end;
     }
@@ -282,9 +279,7 @@ void Reference::clip(const Vec32& centre, const Feature& incident, AreaChoice& c
   Flat points[k_feature_points_max] = {};
   for (int i = 0; i < incident.count; ++i) points[i] = flat(add(centre, incident.point[i]));
   if (incident.count == 1) {
-    bool inside = true;
-    for (int i = 0; i < side_count_; ++i) inside = inside && beyond(points[0], i) <= 0;
-    if (inside) choice.add({points[0].u, points[0].v, points[0].w, AreaPoint::Kind::vertex, 0, 0});
+    if (holds(points[0])) choice.add({points[0].u, points[0].v, points[0].w, AreaPoint::Kind::vertex, 0, 0});
     return;
   }
   const bool closed = incident.is_face();

@@ -68,9 +68,10 @@ class AreaChoice {
 class Reference {
  public:
   /// `centre`: the centre of the reference's shape, in the block. `size`: the bounding radius of the incident core or
-  /// shape, ulps. The sides are moved outward, so that flush points stay inside: by 1/64 of `size` or of the least
-  /// distance of a side from the feature's middle, whichever is smaller. `aside`: the lateral distance, ulps, from a
-  /// reference edge up to which a point counts as over the edge.
+  /// shape, ulps. Points up to the slack beyond a side count as inside, so that flush points stay inside; the slack is
+  /// 1/64 of `size` or of the least distance of a side from the feature's middle, whichever is smaller. Edges are cut
+  /// at the side itself. If the inner end of an edge is within the slack of the side, this end stands for the cut.
+  /// `aside`: the lateral distance, ulps, from a reference edge up to which a point counts as over the edge.
   Reference(const Placed& placed, const Vec32& centre, const Feature& feature, const Vec32& up, int32_t size,
             int64_t aside = 0);
   /// The plane of a half-space; `foot`: any point near the contact.
@@ -80,7 +81,7 @@ class Reference {
   void clip(const Vec32& centre, const Feature& incident, AreaChoice& choice) const;
 
   /// Whether a point in the block is over the reference, by the same test as in clip().
-  bool holds(const Vec32& point) const;
+  bool holds(const Vec32& point) const { return holds(flat(point)); }
   /// Converts a point in the block to the reference's axes. The kind of the result is not meaningful.
   AreaPoint over(const Vec32& point) const;
   /// The height of a point in the block above the reference. Beyond the end of an edge: the height above that end.
@@ -100,10 +101,13 @@ class Reference {
     int64_t u, v, w;
   };
   Flat flat(const Vec32& point) const;
+  bool holds(const Flat& p) const;
   void set_axes(const Vec32& along);
   void add_sides(const Vec32& centre, int32_t size, int64_t aside);
   void clip_edge(const Flat& p, const Flat& q, uint8_t from, bool closed, AreaChoice& choice) const;
   void offer_corners(const Flat* points, const Feature& incident, AreaChoice& choice) const;
+  /// The slack beyond a side, Q30 ulps. The lateral limits of a reference edge have none.
+  int64_t slack_at(int side) const { return side < feature_->count ? slack_ * k_one_64 : 0; }
   int64_t beyond(const Flat& p, int side) const {
     return side_[side].u * p.u + side_[side].v * p.v - side_[side].limit;
   }

@@ -63,9 +63,8 @@ struct RecyclePair {
     const Position &from = base.pose.position, &to = other.pose.position;
     between = real_difference(to, from);
     const Real limit = real_from_unit(Unit(0.625), exponent);
-    if (max(abs(between.x), max(abs(between.y), abs(between.z))) > limit) return false;
-    offset = {unit_from_real(between.x, exponent), unit_from_real(between.y, exponent),
-              unit_from_real(between.z, exponent)};
+    if (greatest(between) > limit) return false;
+    offset = unit_from_real(between, exponent);
     return true;
   }
   Vec3<Unit> offset_in_base() const { return multiply_transposed(base.rotation, offset); }

@@ -28,8 +28,8 @@
 ///
 /// A substep adds no energy (joint_solve.cpp). Solving the rows projects the velocities, which only removes energy.
 /// Then the solver adds velocities that make the joints follow their curved paths. These velocities are scaled so that
-/// they add at most the energy that the projection has removed. Shifts of the bodies correct position errors; they do
-/// not change velocities.
+/// they add at most the energy that the projection has removed. Shifts of the bodies correct position errors; they keep
+/// the bodies' velocities and angular momenta, except that a body whose energy a shift would raise is slowed down.
 /// Sources: Baraff, "Linear-time dynamics using Lagrange multipliers", SIGGRAPH 1996; Tournier, Nesme, Gilles, Faure,
 /// "Stable constrained dynamics", 2015; George, Liu, "The evolution of the minimum degree ordering algorithm", 1989.
 namespace detent {
@@ -55,7 +55,7 @@ Vec3<Unit> clamped_unit(const Vec3<Real>& v, int exponent);
 struct JointStage {
   Span<JointState> joints;  ///< all slots that have ever been used
   Span<const BodyPose> poses;
-  Span<const BodyActivity> activities;
+  Span<BodyActivity> activities;
   Span<JointWork> work;    ///< the active joints, in the order of their slots
   Span<JointLanes> lanes;  ///< of the active joints, on machines that may have lanes
   Span<JointBody> bodies;  ///< the bodies of the active joints
@@ -122,7 +122,8 @@ uint32_t shift_joints(const SolverBodies& bodies, const Island& island, JointSta
 uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
                     Real enough, JointStage& stage, uint32_t& undecided);
 
-/// Stores the forces and torques of the joints in the tick.
+/// Stores the forces and torques of the joints in the tick. A motor that moves its joint keeps the bodies from counting
+/// as at rest, however slow it is.
 void store_reactions(const StepSettings& settings, const SolverBodies& bodies, JointStage& stage);
 
 /// Entry of the feature table.
@@ -162,6 +163,24 @@ template <class Visit>
 void each_mobile_body(Span<const uint32_t> order, const JointStage& stage, const Visit& visit) {
   JointBody* body = nullptr;
   while ((body = next_mobile_body(order, stage, body)) != nullptr) visit(*body);
+}
+
+/// A number of rows that is a compile-time constant.
+template <uint32_t k_rows>
+struct ConstantRows {
+  constexpr operator uint32_t() const { return k_rows; }
+};
+/// Calls `visit` with the number of rows of a joint: a compile-time constant for the usual numbers, so that sums over
+/// the rows are unrolled.
+template <class Visit>
+inline void with_rows(uint32_t rows, const Visit& visit) {
+#if !defined(__OPTIMIZE_SIZE__)
+  if (rows == 3) return visit(ConstantRows<3>());
+  if (rows == 4) return visit(ConstantRows<4>());
+  if (rows == 5) return visit(ConstantRows<5>());
+  if (rows == 6) return visit(ConstantRows<6>());
+#endif
+  visit(rows);
 }
 
 /// The distance, in numbers, from one row of a coupling's block to the next. `rows`: number of rows of the coupling's

@@ -65,10 +65,6 @@ inline void with_sizes(uint32_t height, uint32_t width, const Visit& visit) {
   visit(height, width);
 }
 #else
-template <uint32_t k_rows>
-struct ConstantRows {
-  constexpr operator uint32_t() const { return k_rows; }
-};
 template <class Visit>
 inline void with_sizes(uint32_t height, uint32_t width, const Visit& visit) {
   constexpr ConstantRows<3> k_points;
@@ -88,12 +84,12 @@ inline void with_sizes(uint32_t height, uint32_t width, const Visit& visit) {
 using Rows = Real[k_joint_rows_max][k_joint_rows_max];
 
 /// The product of the first `count` elements of two vectors; the elements of the first are `stride` apart.
-template <class Count, class Stride>
-DETENT_SHARED inline Real product(Count count, Stride stride, const Real* a, const Real* b) {
-  const uint32_t elements = count, apart = stride;
+template <class Count>
+DETENT_SHARED inline Real product(Count count, uint32_t stride, const Real* a, const Real* b) {
+  const uint32_t elements = count;
   ProductSum sum;
   DETENT_UNROLL
-  for (uint32_t k = 0; k < elements; ++k) sum.add(a[k * apart], b[k]);
+  for (uint32_t k = 0; k < elements; ++k) sum.add(a[k * stride], b[k]);
   return sum.value();
 }
 
@@ -114,18 +110,20 @@ inline void each_product(Height height, Width width, const Real* block, const Re
   for (uint32_t i = first; i < columns; ++i) visit(i, sum[i].value());
 #endif
 }
+/// As above, for the blocks of joints that have only the rows of the anchor points: all sums are in registers.
+template <class Visit>
+inline void each_product(ConstantRows<3> height, ConstantRows<3> width, const Real* block, const Real* v,
+                         uint32_t first, const Visit& visit) {
+  DETENT_UNROLL
+  for (uint32_t i = first; i < 3; ++i) visit(i, product(height, width, block + i, v));
+}
 
-/// Multiplies a coupling's block by L^-1, with the L of the own block of the joint `work`. Sets `scaled` to the
-/// transpose of the result, divided by the pivots.
+/// Multiplies a coupling's block by L^-1, with the L of the own block of the joint `work`.
 template <class Height, class Width>
-inline void divide_block(const JointWork& work, Height height, Width width, Real* block, Rows& scaled) {
+inline void divide_block(const JointWork& work, Height height, Width width, Real* block) {
   const uint32_t rows = height, columns = width;
   for (uint32_t k = 1; k < rows; ++k) {
     each_product(k, width, block, work.response[k], 0, [&](uint32_t i, Real part) { block[k * columns + i] -= part; });
-  }
-  for (uint32_t k = 0; k < rows; ++k) {
-    DETENT_UNROLL
-    for (uint32_t i = 0; i < columns; ++i) scaled[i][k] = multiply(block[k * columns + i], work.inverse[k]);
   }
 }
 
@@ -194,13 +192,11 @@ void JointFactor::make() {
   for (const uint32_t index : order_) {
     JointWork& work = stage_.work[index];
     start(work);
-    for (uint32_t at = work.coupling; at != k_no_link;) {
-      const JointCoupling& coupling = stage_.couplings[at];
+    each_coupling(work, [&](const JointCoupling& coupling) {
       const uint32_t size = work.rows * block_stride(stage_.work[coupling.joint[1]].rows);
-      Real* block = block_of(coupling);
+      Real* const block = block_of(coupling);
       for (uint32_t k = 0; k < size; ++k) block[k] = k_zero;
-      at = coupling.next[0];
-    }
+    });
   }
   for (const uint32_t index : order_) add_responses(stage_.work[index]);
   for (uint32_t k = 0; dropped_ && k < order_.count; ++k) make_up(order_[k]);
@@ -264,11 +260,9 @@ void JointFactor::add_responses(JointWork& work) {
       for (uint32_t m = 0; m <= k; ++m)
         work.response[k][m] += scale_by_power(speed[m], unit_power(work, k) + unit_power(work, m));
     }
-    for (uint32_t at = work.coupling; at != k_no_link;) {
-      const JointCoupling& coupling = stage_.couplings[at];
+    each_coupling(work, [&](const JointCoupling& coupling) {
       const JointWork& other = stage_.work[coupling.joint[1]];
-      Real* block = block_of(coupling);
-      at = coupling.next[0];
+      Real* const block = block_of(coupling);
       for (uint32_t far = 0; far < 2; ++far) {
         if (other.body[far] != work.body[end]) continue;
         for (uint32_t k = 0; k < work.rows; ++k) {
@@ -280,7 +274,7 @@ void JointFactor::add_responses(JointWork& work) {
           }
         }
       }
-    }
+    });
   }
 }
 
@@ -295,39 +289,39 @@ void JointFactor::eliminate(JointWork& work) {
     }
     for (uint32_t l = k + 1; l < rows; ++l) response[l][k] = multiply(response[l][k], work.inverse[k]);
   }
-  for (uint32_t at = work.coupling; at != k_no_link; at = stage_.couplings[at].next[0]) {
-    const JointCoupling& coupling = stage_.couplings[at];
-    const uint32_t index = coupling.joint[1];
-    JointWork& other = stage_.work[index];
+  each_coupling(work, [&](const JointCoupling& coupling) {
+    with_sizes(rows, stage_.work[coupling.joint[1]].rows,
+               [&](auto height, auto width) { divide_block(work, height, width, block_of(coupling)); });
+  });
+  each_coupling(work, [&](const JointCoupling& coupling) {
+    JointWork& other = stage_.work[coupling.joint[1]];
+    const Real* const block = block_of(coupling);
     Rows scaled = {};  // initialised, because GCC does not see that every element is written before it is read
-    Real* const block = block_of(coupling);
     with_sizes(rows, other.rows, [&](auto height, auto width) {
-      divide_block(work, height, width, block, scaled);
-      for (uint32_t m = 0; m < width; ++m)
+      const uint32_t columns = width;
+      for (uint32_t k = 0; k < rows; ++k) {
+        DETENT_UNROLL
+        for (uint32_t m = 0; m < columns; ++m) scaled[m][k] = multiply(block[k * columns + m], work.inverse[k]);
+      }
+      for (uint32_t m = 0; m < columns; ++m)
         each_product(height, width, block, scaled[m], m, [&](uint32_t i, Real part) { other.response[i][m] -= part; });
     });
-    // The blocks of the couplings before this one in the list are already multiplied by L^-1.
-    for (uint32_t before = work.coupling; before != at; before = stage_.couplings[before].next[0]) {
-      const JointCoupling& known = stage_.couplings[before];
-      JointWork& third = stage_.work[known.joint[1]];
-      const JointCoupling* const between = find(known.joint[1], index);
-      if (between == nullptr) {
-        make_up_product(rows, block_of(known), scaled, third, other);
-        continue;
+    each_pair(coupling, [&](const JointCoupling& further, Real* target) {
+      JointWork& third = stage_.work[further.joint[1]];
+      if (target == nullptr) {
+        make_up_product(rows, block_of(further), scaled, third, other);
+        return;
       }
-      Real* const target = block_of(*between);
-      // The rows of a coupling's block are the rows of the joint that is eliminated first.
-      const bool turned = other.place < third.place;
-      const Real* const known_block = block_of(known);
-      const uint32_t width = other.rows;
-      with_sizes(rows, third.rows, [&](auto height, auto known_width) {
-        for (uint32_t m = 0; m < width; ++m) {
-          each_product(height, known_width, known_block, scaled[m], 0,
-                       [&](uint32_t i, Real part) { target[turned ? m * known_width + i : i * width + m] -= part; });
-        }
+      const Real* const block_of_third = block_of(further);
+      const uint32_t count = other.rows;
+      with_sizes(rows, third.rows, [=, &scaled](auto height, auto width) {
+        const uint32_t columns = width;
+        Real* row = target;
+        for (uint32_t m = 0; m < count; ++m, row += columns)
+          each_product(height, width, block_of_third, scaled[m], 0, [row](uint32_t i, Real part) { row[i] -= part; });
       });
-    }
-  }
+    });
+  });
 }
 
 Scaled JointFactor::substitute() {
@@ -336,19 +330,18 @@ Scaled JointFactor::substitute() {
     JointWork& work = stage_.work[index];
     Real over[k_joint_rows_max];
     for (uint32_t k = 0; k < work.rows; ++k) {
-      work.side[k] -= product(k, uint32_t{1}, work.side, work.response[k]);
+      work.side[k] -= product(k, 1, work.side, work.response[k]);
       bool clamped = false;
       over[k] = multiply(work.side[k], work.inverse[k], clamped);
       if (clamped) ++saturated;
       energy.add(work.side[k], over[k]);
     }
-    for (uint32_t at = work.coupling; at != k_no_link; at = stage_.couplings[at].next[0]) {
-      const JointCoupling& coupling = stage_.couplings[at];
+    each_coupling(work, [&](const JointCoupling& coupling) {
       JointWork& other = stage_.work[coupling.joint[1]];
       with_sizes(work.rows, other.rows, [&](auto height, auto width) {
         each_product(height, width, block_of(coupling), over, 0, [&](uint32_t i, Real part) { other.side[i] -= part; });
       });
-    }
+    });
   }
   return energy.value();
 }
@@ -358,14 +351,13 @@ void JointFactor::solve() {
     JointWork& work = stage_.work[order_[place]];
     Real rest[k_joint_rows_max];
     for (uint32_t k = 0; k < work.rows; ++k) rest[k] = work.side[k];
-    for (uint32_t at = work.coupling; at != k_no_link; at = stage_.couplings[at].next[0]) {
-      const JointCoupling& coupling = stage_.couplings[at];
+    each_coupling(work, [&](const JointCoupling& coupling) {
       const JointWork& other = stage_.work[coupling.joint[1]];
-      const Real* block = block_of(coupling);
-      with_sizes(work.rows, other.rows, [&](auto height, auto width) {
-        for (uint32_t k = 0; k < height; ++k) rest[k] -= product(width, uint32_t{1}, block + k * width, other.impulse);
+      const Real* const block = block_of(coupling);
+      with_rows(other.rows, [&](auto width) {
+        for (uint32_t k = 0; k < work.rows; ++k) rest[k] -= product(width, 1, block + k * width, other.impulse);
       });
-    }
+    });
     for (uint32_t k = 0; k < work.rows; ++k) {
       bool clamped = false;
       work.impulse[k] = clamp(multiply(rest[k], work.inverse[k], clamped), -k_solved_max, k_solved_max);

@@ -9,10 +9,6 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-inline Vec3<Real> real_from(const Vec3<Unit>& v) {
-  return {real_from_unit(v.x, 0), real_from_unit(v.y, 0), real_from_unit(v.z, 0)};
-}
-
 /// Exponent of the unit of a row's impulses, without k_impulse_power; see choose_unit().
 inline int unit_power([[maybe_unused]] const JointWork& work, [[maybe_unused]] uint32_t row) {
   return DETENT_FIXED ? work.row_power[row] : 0;
@@ -110,11 +106,15 @@ inline bool gather(const JointStage& stage, const JointWork& work) {
     JointBody& body = stage.bodies[work.body[end]];
     if (body.mobile == 0) continue;
     RowFour force = {}, torque = {};
-    for (uint32_t k = 0; k < work.rows; ++k) {
-      const RowFour impulse = spread(work.impulse[k]);
-      force += load_four(lanes.row[end][k]) * impulse;
-      torque += load_four(lanes.row[end][k] + k_rows_of_four) * impulse;
-    }
+    with_rows(work.rows, [&](auto rows) {
+      const uint32_t count = rows;
+      DETENT_UNROLL
+      for (uint32_t k = 0; k < count; ++k) {
+        const RowFour impulse = spread(work.impulse[k]);
+        force += load_four(lanes.row[end][k]) * impulse;
+        torque += load_four(lanes.row[end][k] + k_rows_of_four) * impulse;
+      }
+    });
     const Real share = end == 0 ? -body.inverse_mass : body.inverse_mass;
     // The fourth lane is `pushed`, or an element of kept_rotation: 0 is added to it.
     const RowFour push = load_four(&body.push.x) + force * spread(share);
@@ -215,11 +215,38 @@ class JointFactor {
   }
   const JointCoupling* find(uint32_t one, uint32_t other) const;
   Real* block_of(const JointCoupling& coupling) { return stage_.numbers.data + coupling.block; }
+  /// Visits a joint's couplings with joints that are eliminated later, in the order of elimination.
+  template <class Visit>
+  void each_coupling(const JointWork& work, const Visit& visit) const {
+    for (uint32_t at = work.coupling; at != k_no_link; at = stage_.couplings[at].next[0]) visit(stage_.couplings[at]);
+  }
+  /// Visits the further couplings of the coupling's first joint. Also passes the block that couples the other joints of
+  /// both couplings, or null if there was no room for it. Blocks are in the order of elimination of the other joint.
+  template <class Visit>
+  void each_pair(const JointCoupling& coupling, const Visit& visit) {
+    uint32_t between = stage_.work[coupling.joint[1]].coupling;
+    for (uint32_t at = coupling.next[0]; at != k_no_link; at = stage_.couplings[at].next[0]) {
+      const JointCoupling& further = stage_.couplings[at];
+      Real* block = nullptr;
+      for (; between != k_no_link; between = stage_.couplings[between].next[0]) {
+        const JointCoupling& known = stage_.couplings[between];
+        if (known.joint[1] == further.joint[1]) block = block_of(known);
+        if (block != nullptr || known.block > further.block) break;
+      }
+      visit(further, block);
+    }
+  }
 #if DETENT_JOINT_LANES
   template <bool wide>
   void add_responses_of_end(JointWork& work, uint32_t end);
   template <bool wide>
   void eliminate_own(JointWork& work);
+  template <class Height>
+  void eliminate_couplings(JointWork& work, Height height);
+  template <class Height>
+  void substitute_joint(JointWork& work, Height height, EnergySum& energy);
+  template <class Height>
+  void solve_joint(JointWork& work, Height height);
 #endif
 };
 

@@ -7,64 +7,48 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The first `count` rows of a block, `stride` numbers apart.
-struct BlockRows {
-  const Real* first;
-  uint32_t stride;
-  uint32_t count;
-};
-/// Factors that are `stride` numbers apart.
-struct FactorList {
-  const Real* first;
-  uint32_t stride;
-};
-
-/// Subtracts from `target` the sum of the rows times their factors.
-template <bool wide>
-void subtract_rows(const BlockRows& rows, const FactorList& factors, Real* target) {
-  RowLanes<wide> sum;
-  for (uint32_t k = 0; k < rows.count; ++k)
-    sum.add(RowLanes<wide>::from(rows.first + k * rows.stride), factors.first[k * factors.stride]);
-  (RowLanes<wide>::from_six(target) - sum).put(target);
+/// Subtracts row_sum() from a row.
+template <bool wide, class Height>
+inline void subtract_rows(const CouplingBlock<wide>& block, Height height, const Real* factor, uint32_t stride,
+                          Real* row) {
+  (RowLanes<wide>::from(row) - row_sum(block, height, factor, stride)).store(row);
 }
 
-/// The products of four rows with a vector.
-template <bool wide>
-RowFour products(const Real* const (&row)[k_rows_of_four], const RowLanes<wide>& v) {
-  RowFour a = load_four(row[0]) * v.low, b = load_four(row[1]) * v.low;
-  RowFour c = load_four(row[2]) * v.low, d = load_four(row[3]) * v.low;
+/// The products of up to four rows of a block, from `first` on, with a vector. Further lanes of the result are not
+/// used.
+template <bool wide, class Height>
+inline RowFour products(const CouplingBlock<wide>& block, uint32_t first, Height height, const RowLanes<wide>& v) {
+  const uint32_t rows = height;
+  const RowLanes<wide> none;
+  const auto row = [&](uint32_t k) { return k < rows ? block.at(k) : none; };
+  const RowLanes<wide> p = row(first), q = row(first + 1), r = row(first + 2), s = row(first + 3);
+  RowFour a = p.low * v.low, b = q.low * v.low, c = r.low * v.low, d = s.low * v.low;
   transpose(a, b, c, d);
   RowFour sum = a + b + c + d;
   if constexpr (wide) {
-    RowFour e = load_four(row[0] + k_rows_of_four) * v.high, f = load_four(row[1] + k_rows_of_four) * v.high;
-    RowFour g = load_four(row[2] + k_rows_of_four) * v.high, h = load_four(row[3] + k_rows_of_four) * v.high;
+    RowFour e = p.high * v.high, f = q.high * v.high, g = r.high * v.high, h = s.high * v.high;
     transpose(e, f, g, h);
     sum = sum + e + f;
   }
   return sum;
 }
-/// Subtracts the product of a block of `height` rows with a vector from `rest`.
-template <bool wide>
-void subtract_products(const Real* block, uint32_t height, const Real* vector, Real* rest) {
-  constexpr uint32_t k_stride = wide ? k_row_room : k_rows_of_four;
+/// Subtracts the product of a block with a vector from `rest`.
+template <bool wide, class Height>
+inline void subtract_products(const CouplingBlock<wide>& block, Height height, const Real* vector, Real* rest) {
   const RowLanes<wide> v = RowLanes<wide>::from_six(vector);
-  const auto four = [&](uint32_t first) {
-    const Real* row[k_rows_of_four];
-    for (uint32_t i = 0; i < k_rows_of_four; ++i) row[i] = block + (first + i < height ? first + i : first) * k_stride;
-    return products(row, v);
-  };
-  store_four(load_four(rest) - four(0), rest);
+  store_four(load_four(rest) - products(block, 0, height, v), rest);
   if (height > k_rows_of_four)
-    store_pair(load_pair(rest + k_rows_of_four) - four(k_rows_of_four), rest + k_rows_of_four);
+    store_pair(load_pair(rest + k_rows_of_four) - products(block, k_rows_of_four, height, v), rest + k_rows_of_four);
 }
 
 /// Adds the magnitudes of the fill-in between two joints, for which there was no room, to the diagonals of both joints.
-void make_up_fill(const JointWork& third, const JointWork& other, const BlockRows& known, const Real* scaled,
-                  JointLanes& of_third, JointLanes& of_other) {
+template <bool wide>
+void make_up_fill(const JointWork& third, const JointWork& other, const CouplingBlock<wide>& block, uint32_t height,
+                  const Real (&scaled)[k_joint_rows_max][k_row_room], JointLanes& of_third, JointLanes& of_other) {
   for (uint32_t i = 0; i < third.rows; ++i) {
     for (uint32_t m = 0; m < other.rows; ++m) {
       Real sum = k_zero;
-      for (uint32_t k = 0; k < known.count; ++k) sum += known.first[k * known.stride + i] * scaled[k * k_row_room + m];
+      for (uint32_t k = 0; k < height; ++k) sum += block.row(k)[i] * scaled[k][m];
       of_third.upper[i][i] += abs(sum);
       of_other.upper[m][m] += abs(sum);
     }
@@ -109,27 +93,24 @@ void JointFactor::add_responses_of_end(JointWork& work, uint32_t end) {
     store_four(motion[i].low, by_row[i]);
     store_four(motion[i].high, by_row[i] + k_rows_of_four);
   }
-  for (uint32_t at = work.coupling; at != k_no_link; at = stage_.couplings[at].next[0]) {
-    const JointCoupling& coupling = stage_.couplings[at];
+  each_coupling(work, [&](const JointCoupling& coupling) {
     const JointWork& other = stage_.work[coupling.joint[1]];
     const JointLanes& lanes_of_other = lanes_of(stage_, other);
     for (uint32_t far = 0; far < 2; ++far) {
       if (other.body[far] != work.body[end]) continue;
       with_width(is_wide(other), [&](auto width) {
-        using Lanes = RowLanes<decltype(width)::wide>;
-        constexpr uint32_t k_stride = decltype(width)::wide ? k_row_room : k_rows_of_four;
-        Real* const block = block_of(coupling);
+        constexpr bool k_wide = decltype(width)::wide;
+        const CouplingBlock<k_wide> block = {block_of(coupling)};
         for (uint32_t k = 0; k < work.rows; ++k) {
           const Vec3<Real> linear = {by_row[0][k], by_row[1][k], by_row[2][k]};
           const Vec3<Real> angular = {by_row[3][k], by_row[4][k], by_row[5][k]};
-          const Lanes speed = column_sum<decltype(width)::wide>(lanes_of_other.column[far], 0, linear) +
-                              column_sum<decltype(width)::wide>(lanes_of_other.column[far], 3, angular);
-          const Lanes before = Lanes::from_six(block + k * k_stride);
-          (end == far ? before + speed : before - speed).put(block + k * k_stride);
+          const RowLanes<k_wide> speed = column_sum<k_wide>(lanes_of_other.column[far], 0, linear) +
+                                         column_sum<k_wide>(lanes_of_other.column[far], 3, angular);
+          (end == far ? block.at(k) + speed : block.at(k) - speed).store(block.row(k));
         }
       });
     }
-  }
+  });
 }
 
 void JointFactor::add_responses(JointWork& work) {
@@ -151,101 +132,109 @@ void JointFactor::eliminate_own(JointWork& work) {
 
 void JointFactor::eliminate(JointWork& work) {
   with_width(is_wide(work), [&](auto width) { eliminate_own<decltype(width)::wide>(work); });
-  const uint32_t rows = work.rows;
+  with_rows(work.rows, [&](auto height) { eliminate_couplings(work, height); });
+}
+
+template <class Height>
+void JointFactor::eliminate_couplings(JointWork& work, Height height) {
+  const uint32_t rows = height;
   const Real(&upper)[k_joint_rows_max][k_row_room] = lanes_of(stage_, work).upper;
-  for (uint32_t at = work.coupling; at != k_no_link; at = stage_.couplings[at].next[0]) {
-    const JointCoupling& coupling = stage_.couplings[at];
-    const uint32_t index = coupling.joint[1];
-    JointWork& other = stage_.work[index];
+  // Multiplies the blocks by L^-1.
+  each_coupling(work, [&](const JointCoupling& coupling) {
+    with_width(is_wide(stage_.work[coupling.joint[1]]), [&](auto width) {
+      const CouplingBlock<decltype(width)::wide> block = {block_of(coupling)};
+      for (uint32_t k = 1; k < rows; ++k) subtract_rows(block, k, &upper[0][k], k_row_room, block.row(k));
+    });
+  });
+  each_coupling(work, [&](const JointCoupling& coupling) {
+    const JointWork& other = stage_.work[coupling.joint[1]];
     JointLanes& lanes_of_other = lanes_of(stage_, other);
-    const uint32_t stride = block_stride(other.rows);
-    Real* const block = block_of(coupling);
     Real scaled[k_joint_rows_max][k_row_room];  // the block over the pivots
     with_width(is_wide(other), [&](auto width) {
-      using Lanes = RowLanes<decltype(width)::wide>;
-      for (uint32_t k = 0; k < rows; ++k) {
-        Real* const row = block + k * stride;
-        if (k > 0) subtract_rows<decltype(width)::wide>({block, stride, k}, {&upper[0][k], k_row_room}, row);
-        (Lanes::from(row) * work.inverse[k]).put(scaled[k]);
-      }
+      const CouplingBlock<decltype(width)::wide> block = {block_of(coupling)};
+      for (uint32_t k = 0; k < rows; ++k) (block.at(k) * work.inverse[k]).store(scaled[k]);
       for (uint32_t m = 0; m < other.rows; ++m)
-        subtract_rows<decltype(width)::wide>({block, stride, rows}, {&scaled[0][m], k_row_room},
-                                             lanes_of_other.upper[m]);
+        subtract_rows(block, height, &scaled[0][m], k_row_room, lanes_of_other.upper[m]);
     });
-    // The blocks of the couplings before this one in the list are already multiplied by L^-1.
-    for (uint32_t before = work.coupling; before != at; before = stage_.couplings[before].next[0]) {
-      const JointCoupling& known = stage_.couplings[before];
-      JointWork& third = stage_.work[known.joint[1]];
-      const JointCoupling* const between = find(known.joint[1], index);
-      const BlockRows of_third = {block_of(known), block_stride(third.rows), rows};
-      if (between == nullptr) {
-        make_up_fill(third, other, of_third, scaled[0], lanes_of(stage_, third), lanes_of_other);
-        continue;
-      }
-      // The rows of a coupling's block are the rows of the joint that is eliminated first.
-      Real* const target = block_of(*between);
-      const bool turned = other.place < third.place;
-      const JointWork &first = turned ? other : third, &second = turned ? third : other;
-      const BlockRows of_other = {scaled[0], k_row_room, rows};
-      const BlockRows &of_second = turned ? of_third : of_other, &of_first = turned ? of_other : of_third;
-      with_width(is_wide(second), [&](auto width) {
-        for (uint32_t i = 0; i < first.rows; ++i)
-          subtract_rows<decltype(width)::wide>(of_second, {of_first.first + i, of_first.stride},
-                                               target + i * block_stride(second.rows));
+    each_pair(coupling, [&](const JointCoupling& further, Real* target) {
+      const JointWork& third = stage_.work[further.joint[1]];
+      with_width(is_wide(third), [&](auto width) {
+        constexpr bool k_wide = decltype(width)::wide;
+        const CouplingBlock<k_wide> block = {block_of(further)};
+        if (target == nullptr) {
+          make_up_fill(third, other, block, rows, scaled, lanes_of(stage_, third), lanes_of_other);
+          return;
+        }
+        const CouplingBlock<k_wide> between = {target};
+        for (uint32_t m = 0; m < other.rows; ++m)
+          subtract_rows(block, height, &scaled[0][m], k_row_room, between.row(m));
       });
-    }
+    });
+  });
+}
+
+template <class Height>
+void JointFactor::substitute_joint(JointWork& work, Height height, EnergySum& energy) {
+  const uint32_t rows = height;
+  const Real(&upper)[k_joint_rows_max][k_row_room] = lanes_of(stage_, work).upper;
+  Real over[k_joint_rows_max] = {};
+  DETENT_UNROLL
+  for (uint32_t k = 0; k < rows; ++k) {
+    ProductSum sum;
+    for (uint32_t m = 0; m < k; ++m) sum.add(upper[m][k], work.side[m]);
+    work.side[k] -= sum.value();
+    bool clamped = false;
+    over[k] = multiply(work.side[k], work.inverse[k], clamped);
+    if (clamped) ++saturated;
+    energy.add(work.side[k], over[k]);
   }
+  each_coupling(work, [&](const JointCoupling& coupling) {
+    JointWork& other = stage_.work[coupling.joint[1]];
+    with_width(is_wide(other), [&](auto width) {
+      constexpr bool k_wide = decltype(width)::wide;
+      const CouplingBlock<k_wide> block = {block_of(coupling)};
+      (RowLanes<k_wide>::from_six(other.side) - row_sum(block, height, over, 1)).put(other.side);
+    });
+  });
 }
 
 Scaled JointFactor::substitute() {
   EnergySum energy;
   for (const uint32_t index : order_) {
     JointWork& work = stage_.work[index];
-    const Real(&upper)[k_joint_rows_max][k_row_room] = lanes_of(stage_, work).upper;
-    Real over[k_joint_rows_max];
-    for (uint32_t k = 0; k < work.rows; ++k) {
-      ProductSum sum;
-      for (uint32_t m = 0; m < k; ++m) sum.add(upper[m][k], work.side[m]);
-      work.side[k] -= sum.value();
-      bool clamped = false;
-      over[k] = multiply(work.side[k], work.inverse[k], clamped);
-      if (clamped) ++saturated;
-      energy.add(work.side[k], over[k]);
-    }
-    for (uint32_t at = work.coupling; at != k_no_link; at = stage_.couplings[at].next[0]) {
-      const JointCoupling& coupling = stage_.couplings[at];
-      JointWork& other = stage_.work[coupling.joint[1]];
-      with_width(is_wide(other), [&](auto width) {
-        constexpr uint32_t k_stride = decltype(width)::wide ? k_row_room : k_rows_of_four;
-        subtract_rows<decltype(width)::wide>({block_of(coupling), k_stride, work.rows}, {over, 1}, other.side);
-      });
-    }
+    with_rows(work.rows, [&](auto height) { substitute_joint(work, height, energy); });
   }
   return energy.value();
+}
+
+template <class Height>
+void JointFactor::solve_joint(JointWork& work, Height height) {
+  const uint32_t rows = height;
+  Real rest[k_row_room];
+  store_four(load_four(work.side), rest);
+  store_pair(load_pair(work.side + k_rows_of_four), rest + k_rows_of_four);
+  each_coupling(work, [&](const JointCoupling& coupling) {
+    const JointWork& other = stage_.work[coupling.joint[1]];
+    with_width(is_wide(other), [&](auto width) {
+      constexpr bool k_wide = decltype(width)::wide;
+      subtract_products(CouplingBlock<k_wide>{block_of(coupling)}, height, other.impulse, rest);
+    });
+  });
+  const Real(&upper)[k_joint_rows_max][k_row_room] = lanes_of(stage_, work).upper;
+  for (uint32_t left = rows; left > 0; --left) {
+    const uint32_t k = left - 1;
+    bool clamped = false;
+    Real impulse = clamp(multiply(rest[k], work.inverse[k], clamped), -k_solved_max, k_solved_max);
+    if (clamped) ++saturated;
+    for (uint32_t m = k + 1; m < rows; ++m) impulse -= upper[k][m] * work.impulse[m];
+    work.impulse[k] = impulse;
+  }
 }
 
 void JointFactor::solve() {
   for (uint32_t place = order_.count; place-- > 0;) {
     JointWork& work = stage_.work[order_[place]];
-    Real rest[k_row_room];
-    store_four(load_four(work.side), rest);
-    store_pair(load_pair(work.side + k_rows_of_four), rest + k_rows_of_four);
-    for (uint32_t at = work.coupling; at != k_no_link; at = stage_.couplings[at].next[0]) {
-      const JointCoupling& coupling = stage_.couplings[at];
-      const JointWork& other = stage_.work[coupling.joint[1]];
-      with_width(is_wide(other), [&](auto width) {
-        subtract_products<decltype(width)::wide>(block_of(coupling), work.rows, other.impulse, rest);
-      });
-    }
-    for (uint32_t k = 0; k < work.rows; ++k) {
-      bool clamped = false;
-      work.impulse[k] = clamp(multiply(rest[k], work.inverse[k], clamped), -k_solved_max, k_solved_max);
-      if (clamped) ++saturated;
-    }
-    const Real(&upper)[k_joint_rows_max][k_row_room] = lanes_of(stage_, work).upper;
-    for (uint32_t k = work.rows; k-- > 0;) {
-      for (uint32_t m = k + 1; m < work.rows; ++m) work.impulse[k] -= upper[k][m] * work.impulse[m];
-    }
+    with_rows(work.rows, [&](auto height) { solve_joint(work, height); });
   }
 }
 

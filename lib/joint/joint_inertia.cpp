@@ -104,8 +104,7 @@ void load_inertia(const StepSettings& settings, const SolverBodies& bodies, cons
   body.pushed = to_real(body.inverse_mass, saturated);
   for (int i = 0; i < 3; ++i) {
     const Vec3<Unit>& row = inverse_inertia.row[i];
-    body.turned[i] =
-        multiply({real_from_unit(row.x, 0), real_from_unit(row.y, 0), real_from_unit(row.z, 0)}, rotational);
+    body.turned[i] = multiply(real_from_unit(row, 0), rotational);
   }
 }
 

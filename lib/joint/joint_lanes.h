@@ -1,4 +1,5 @@
 #pragma once
+#include "base/unroll.h"
 #include "joint/joint.h"
 
 /// The rows of a joint side by side, in two registers of four floats: rows 0 to 3 (low), rows 4 and 5 (high). The high
@@ -68,6 +69,11 @@ struct RowLanes {
   void put(Real* numbers) const {
     store_four(low, numbers);
     if constexpr (wide) store_pair(high, numbers + k_rows_of_four);
+  }
+  /// Writes a row or a column of JointLanes, or a row of a block.
+  void store(Real* numbers) const {
+    store_four(low, numbers);
+    if constexpr (wide) store_four(high, numbers + k_rows_of_four);
   }
   /// Adds a row times a factor.
   void add(const RowLanes& row, Real factor) {
@@ -178,6 +184,29 @@ inline void fill_lanes(const JointWork& work, JointLanes& lanes) {
       store_four(c, column[2] + k_rows_of_four);
     }
   }
+}
+
+/// A block of numbers: rows of a joint that is eliminated first x rows of a joint that is eliminated later.
+template <bool wide>
+struct CouplingBlock {
+  static constexpr uint32_t k_stride = wide ? k_row_room : k_rows_of_four;
+  Real* first;
+
+  Real* row(uint32_t k) const { return first + k * k_stride; }
+  RowLanes<wide> at(uint32_t k) const { return RowLanes<wide>::from(row(k)); }
+};
+
+/// The sum of the first `height` rows of a block, each times a factor. The factors are `stride` apart.
+template <bool wide, class Height>
+inline RowLanes<wide> row_sum(const CouplingBlock<wide>& block, Height height, const Real* factor, uint32_t stride) {
+  const uint32_t rows = height;
+  RowLanes<wide> sum;
+  DETENT_UNROLL
+  for (uint32_t k = 0; k < k_joint_rows_max; ++k) {
+    if (k == rows) break;
+    sum.add(block.at(k), factor[k * stride]);
+  }
+  return sum;
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -62,24 +62,32 @@ class Eliminator {
     stage_.work[order[0]].mark = first_body;
   }
 
-  /// Makes each joint's list of couplings with joints that are eliminated later. Assigns a block to each coupling: the
-  /// blocks are the elements of JointStage::numbers directly before `end`. Sets `end` to the first of these elements.
-  void list_columns(uint32_t from, uint32_t& end) {
+  /// Makes each joint's list of couplings with joints that are eliminated later, sorted by the order of elimination.
+  /// Assigns a block to each coupling, in the order of elimination of the later joint: the blocks are the elements of
+  /// JointStage::numbers directly before `end`. Sets `end` to the first of these elements.
+  void list_columns(Span<const uint32_t> order, uint32_t from, uint32_t& end) {
+    for (const uint32_t joint : order) stage_.work[joint].coupling = stage_.work[joint].around[0] = k_no_link;
     for (uint32_t k = from; k < couplings; ++k) {
-      for (const uint32_t joint : stage_.couplings[k].joint) stage_.work[joint].coupling = k_no_link;
-    }
-    for (uint32_t k = couplings; k-- > from;) {
       JointCoupling& coupling = stage_.couplings[k];
       if (stage_.work[coupling.joint[1]].place < stage_.work[coupling.joint[0]].place) {
         const uint32_t first = coupling.joint[1];
         coupling.joint[1] = coupling.joint[0];
         coupling.joint[0] = first;
       }
-      JointWork &first = stage_.work[coupling.joint[0]], &other = stage_.work[coupling.joint[1]];
-      end -= first.rows_max * block_stride(other.rows_max);
-      coupling.block = end;
-      coupling.next[0] = first.coupling;
-      first.coupling = k;
+      uint32_t& head = stage_.work[coupling.joint[1]].around[0];
+      coupling.next[1] = head;
+      head = k;
+    }
+    for (uint32_t place = order.count; place-- > 0;) {
+      const JointWork& other = stage_.work[order[place]];
+      for (uint32_t k = other.around[0]; k != k_no_link; k = stage_.couplings[k].next[1]) {
+        JointCoupling& coupling = stage_.couplings[k];
+        JointWork& first = stage_.work[coupling.joint[0]];
+        end -= first.rows_max * block_stride(other.rows_max);
+        coupling.block = end;
+        coupling.next[0] = first.coupling;
+        first.coupling = k;
+      }
     }
   }
 
@@ -286,7 +294,7 @@ uint32_t order_joints(const StepSettings& settings, const SolverBodies& bodies, 
     each_assembly(island, stage, [&](Span<uint32_t> order) {
       Eliminator eliminator(stage, couplings, numbers);
       eliminator.run(order);
-      eliminator.list_columns(couplings, blocks);
+      eliminator.list_columns(order, couplings, blocks);
       weigh(bodies, order, stage);
       couplings = eliminator.couplings;
       numbers = eliminator.numbers;

@@ -18,10 +18,6 @@ constexpr Real k_passed = 0.03125;
 /// Tolerance of the target speed of motors and friction, m/s.
 constexpr Real k_overdriven = 0x1p-10;
 
-Vec3<Real> in_metres(const Vec3<Unit>& v, int exponent) {
-  return {real_from_unit(v.x, exponent), real_from_unit(v.y, exponent), real_from_unit(v.z, exponent)};
-}
-
 /// The angle of a rotation about an axis, 2 atan2(sine, cosine) of half the angle, rad, in [-pi, pi].
 Real twist_of(Unit sine, Unit cosine) {
   const bool turned = cosine < k_zero_unit;  // q and -q are the same rotation
@@ -48,7 +44,7 @@ struct RowMaker {
   ///
   ///     C = d . gap,  J = (-d, -(r_A + gap) x d, d, r_B x d)
   JointRow linear(const Vec3<Unit>& axis) const {
-    const Vec3<Unit> displacement = clamped_unit(in_metres(rows.arm[0], a.exponent) + gap, a.exponent);
+    const Vec3<Unit> displacement = clamped_unit(real_from_unit(rows.arm[0], a.exponent) + gap, a.exponent);
     return {axis, {clamped_cross(displacement, axis), clamped_cross(rows.arm[1], axis)}};
   }
   /// An angular row about a = `axis`:
@@ -147,7 +143,7 @@ struct RowMaker {
     if (!normalise(about, axis, sine)) axis = {k_zero_unit, k_zero_unit, Unit(1.0)};
     const Vec3<Unit> in_world = multiply(frame, axis);
     free_angular(i, in_world, length_of(radians(arc_tangent(unit_from_real(sine, 0), leaning.x))));
-    if (wants(i + 1)) free_angular(i + 1, clamped_unit(cross(in_metres(frame.column[0], 0), in_world), 0), k_zero);
+    if (wants(i + 1)) free_angular(i + 1, clamped_unit(cross(real_from_unit(frame.column[0], 0), in_world), 0), k_zero);
   }
   /// The three rotations about A's axes, for friction. They have no values.
   void free_turns() {
@@ -160,7 +156,7 @@ struct RowMaker {
     const Real sign = relative.w < k_zero_unit ? Real(-1.0) : Real(1.0);  // q and -q are the same rotation
     Vec3<Unit> about;
     Real sine = k_zero;
-    if (!normalise(in_metres({relative.x, relative.y, relative.z}, 0) * sign, about, sine)) return;
+    if (!normalise(real_from_unit(Vec3<Unit>{relative.x, relative.y, relative.z}, 0) * sign, about, sine)) return;
     const Real angle = twist_of(unit_from_real(sine, 0), abs(relative.w));
     rows.value[0] = length_of(angle * about.x);
     rows.value[1] = length_of(angle * about.y);
@@ -179,7 +175,7 @@ struct RowMaker {
 
  private:
   static Vec3<Unit> clamped_cross(const Vec3<Unit>& arm, const Vec3<Unit>& axis) {
-    const Vec3<Real> product = cross(in_metres(arm, 0), axis);
+    const Vec3<Real> product = cross(real_from_unit(arm, 0), axis);
     return clamped_unit(product, 0);
   }
 };
@@ -273,18 +269,20 @@ Real speed_of(const JointStage& stage, const JointWork& work, int i) {
          dot(a.angular_velocity, row.arm[0]);
 }
 
-/// The part of speed_of() that gravity, forces and torques have added in this substep. The damper of a spring must not
-/// act on this part, because the damper would then carry a part of these forces.
-Real speed_pushed(const SolverBodies& bodies, const JointStage& stage, const JointWork& work, int i) {
+/// speed_of() at the start of the substep, before forces, damping and the stored impulses of contacts have acted. The
+/// damper of a spring acts on this speed. On a later speed it would carry a part of these forces and impulses.
+Real speed_before(const SolverBodies& bodies, const JointStage& stage, const JointWork& work, int i) {
   const JointRow& row = work.free_row[i];
   Real speed = k_zero;
   for (int end = 0; end < 2; ++end) {
     const JointBody& body = stage.bodies[work.body[end]];
-    if (body.mobile == 0) continue;
-    const BodyWork& now = bodies.work[body.slot];
-    const Vec3<Real> angular_velocity =
-        world_angular_velocity(bodies.properties[body.slot], now.inverse_inertia, now.twist, body.above);
-    const Real own = dot(now.push, row.axis) + dot(angular_velocity, row.arm[end]);
+    Vec3<Real> linear_velocity = body.linear_velocity, angular_velocity = body.angular_velocity;
+    if (body.mobile != 0) {
+      linear_velocity = body.velocity_before;
+      angular_velocity = world_angular_velocity(bodies.properties[body.slot], bodies.work[body.slot].inverse_inertia,
+                                                body.angular_momentum_before, body.above);
+    }
+    const Real own = dot(linear_velocity, row.axis) + dot(angular_velocity, row.arm[end]);
     speed += end == 0 ? -own : own;
   }
   return speed;
@@ -299,7 +297,7 @@ void push_softly(const StepSettings& settings, const SolverBodies& bodies, const
   const Spring spring(settings, joint, i);
   if (!less(spring.stiffness(), Scaled(0.25))) return;
   const Real off = work.value[i] - target_of(joint, work, i);
-  const Real fast = speed_of(stage, work, i) - speed_pushed(bodies, stage, work, i) - target_speed(joint, work, i);
+  const Real fast = speed_before(bodies, stage, work, i) - target_speed(joint, work, i);
   const Scaled pull = multiply(multiply(spring.rate, spring.phase), scaled_from(off));
   const Scaled damping = scaled_by_power(scaled_from(joint.damping_ratio[driving_axis(joint, i)]), 1);
   const Scaled drag = multiply(multiply(spring.phase, damping), scaled_from(fast));
@@ -440,8 +438,8 @@ void make_joint_rows(const JointStage& stage, const JointWork& work, uint32_t mo
   rows.arm[0] = multiply(a.axes, work.anchor[0]);
   rows.arm[1] = multiply(b.axes, work.anchor[1]);
   RowMaker make = {work, a, b, motions, parts, rows};
-  make.gap =
-      work.between + (b.place - a.place) + (in_metres(rows.arm[1], b.exponent) - in_metres(rows.arm[0], a.exponent));
+  make.gap = work.between + (b.place - a.place) +
+             (real_from_unit(rows.arm[1], b.exponent) - real_from_unit(rows.arm[0], a.exponent));
   if ((type != JointType::ball || motions != 0) && type != JointType::distance) {
     const Quat frame_a = multiply(a.rotation, joint.frame_a);
     make.frame = matrix_from(frame_a);

@@ -648,7 +648,7 @@ struct Solver {
     }
   }
   static void add_torque(JointWork& work, const JointRow& row, Real impulse) {
-    if (!is_linear(row)) work.torque_sum += real_from(row.arm[1]) * impulse;
+    if (!is_linear(row)) work.torque_sum += real_from_unit(row.arm[1], 0) * impulse;
   }
 
   /// The first solve of a substep.
@@ -696,6 +696,17 @@ uint32_t solve_each(const StepSettings& settings, const SolverBodies& bodies, co
   return clamped;
 }
 
+/// The angular momentum of a body that a shift has rotated from `before` to `after`. A shift has no torque, so the
+/// angular momentum stays the same in world axes. If the body would have more energy with it in its new rotation, it is
+/// scaled down to the energy before.
+Vec3<Real> angular_momentum_after_shift(const BodyProperties& properties, const Quat& before, const Quat& after,
+                                        const Vec3<Real>& angular_momentum) {
+  if (is_isotropic(properties)) return angular_momentum;
+  const Scaled had = rotational_energy(properties, rotate_inverse(before, angular_momentum));
+  const Scaled has = rotational_energy(properties, rotate_inverse(after, angular_momentum));
+  return less(had, has) ? multiply(angular_momentum, square_root(divide(had, has))) : angular_momentum;
+}
+
 }  // namespace
 
 void begin_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
@@ -734,9 +745,10 @@ uint32_t shift_joints(const SolverBodies& bodies, const Island& island, JointSta
     now.displacement += body.shift;
     if (!(body.shift_rotation == k_zero_vector)) {
       const Quat rotation_vector = rotation_from_vector(body.shift_rotation);
-      now.rotation = normalise(multiply(rotation_vector, now.rotation));
-      // The angular momentum rotates with the body, so the energy of the body stays the same.
-      motion.angular_momentum = rotate(rotation_vector, motion.angular_momentum);
+      const Quat rotation_before = now.rotation;
+      now.rotation = normalise(multiply(rotation_vector, rotation_before));
+      motion.angular_momentum = angular_momentum_after_shift(bodies.properties[body.slot], rotation_before,
+                                                             now.rotation, motion.angular_momentum);
       now.rotation_vector += scale_by_power(body.shift_rotation, bodies.properties[body.slot].size_exponent);
     }
     motion.angular_momentum = lent_angular_momentum(body, motion.angular_momentum, saturated);
@@ -758,7 +770,11 @@ void store_reactions(const StepSettings& settings, const SolverBodies& bodies, J
             multiply(scaled_from(sum.z), factor)};
     };
     JointState& joint = stage.joints[work.joint];
-    store_impulses(stage.activities[mobile.slot].substeps, work, joint);
+    BodyActivity& activity = stage.activities[mobile.slot];
+    store_impulses(activity.substeps, work, joint);
+    for (int i = 0; i < 2; ++i) {
+      if (work.mode[i] == DriveMode::rigid && !(joint.speed[i] == k_zero)) activity.still_ticks = 0;
+    }
     store(work.force_sum, impulse_power(work, 0), joint.force);
     store(work.torque_sum, b.exponent + impulse_power(work, 1), joint.torque);
   }

@@ -27,7 +27,7 @@ constexpr uint32_t k_least_with_contacts = 4;
 constexpr Scaled k_needed_by_bend = 25.0;
 /// The relative rotation of the two bodies' axes counts 2^k_axes_power times as much as the curvature of the anchors'
 /// paths.
-constexpr int k_axes_power = 2;
+constexpr int k_axes_power = 3;
 constexpr Scaled k_needed_by_bend_max = 1024.0;
 /// Squared substeps per squared radian of a spring's phase in a tick.
 constexpr Scaled k_needed_by_spring = 25.0;

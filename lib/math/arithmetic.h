@@ -302,15 +302,23 @@ DETENT_SHARED constexpr Vec3<Real> real_difference(const Position& a, const Posi
   return {real_difference(a.x, b.x), real_difference(a.y, b.y), real_difference(a.z, b.z)};
 }
 
+/// By component, as real_from_unit() and unit_from_real() of a number.
+DETENT_SHARED constexpr Vec3<Real> real_from_unit(const Vec3<Unit>& u, int e) {
+  return {real_from_unit(u.x, e), real_from_unit(u.y, e), real_from_unit(u.z, e)};
+}
+DETENT_SHARED constexpr Vec3<Unit> unit_from_real(const Vec3<Real>& r, int e) {
+  return {unit_from_real(r.x, e), unit_from_real(r.y, e), unit_from_real(r.z, e)};
+}
+
 /// v 2^n, by component as scale_by_power() of a number.
 template <class T>
-constexpr Vec3<T> scale_by_power(const Vec3<T>& v, int n) {
+DETENT_SHARED constexpr Vec3<T> scale_by_power(const Vec3<T>& v, int n) {
   return {scale_by_power(v.x, n), scale_by_power(v.y, n), scale_by_power(v.z, n)};
 }
 /// |x| + |y| + |z|.
-constexpr Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
+DETENT_SHARED constexpr Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 /// The greatest magnitude of a component.
-constexpr Real greatest(const Vec3<Real>& v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
+DETENT_SHARED constexpr Real greatest(const Vec3<Real>& v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -148,7 +148,7 @@ namespace {
 /// Small rotations by series: cheaper than a root and a sine, and precise relative to the angle in f32.
 /// Range: components of theta below 2^-4. The omitted terms are below 2^-34.
 Quat small_rotation(const Vec3<Real>& theta) {
-  const Vec3<Unit> t = {unit_from_real(theta.x, -3), unit_from_real(theta.y, -3), unit_from_real(theta.z, -3)};
+  const Vec3<Unit> t = unit_from_real(theta, -3);
   const Unit s = dot(t, t);  // 64 |theta|^2 < 3/4
   // sin(|theta|/2) / |theta| = 1/2 - |theta|^2/48 + |theta|^4/3840; cos = 1 - |theta|^2/8 + |theta|^4/384
   const Unit factor = Unit(0.5) - Unit(1.0 / 3072) * (s * (Unit(1.0) - Unit(1.0 / 5120) * s));
@@ -160,11 +160,11 @@ Quat small_rotation(const Vec3<Real>& theta) {
 /// The rotation vector by a series. Range: components of q's vector part below 2^-5, w > 0. The omitted terms are below
 /// 2^-31 of the result.
 Vec3<Real> small_rotation_vector(const Quat& q) {
-  const Vec3<Unit> v8 = {scale_by_power(q.x, 3), scale_by_power(q.y, 3), scale_by_power(q.z, 3)};
+  const Vec3<Unit> v = {q.x, q.y, q.z}, v8 = scale_by_power(v, 3);
   const Unit s = dot(v8, v8);  // 64 |v|^2 < 3/16
   // 2 asin(|v|) / |v| = 2 (1 + |v|^2/6 + 3 |v|^4/40 + 15 |v|^6/336)
   const Unit more = Unit(1.0 / 384) * (s * (Unit(1.0) + Unit(9.0 / 1280) * (s * (Unit(1.0) + Unit(25.0 / 2688) * s))));
-  const Vec3<Real> twice = {real_from_unit(q.x, 1), real_from_unit(q.y, 1), real_from_unit(q.z, 1)};
+  const Vec3<Real> twice = real_from_unit(v, 1);
   return twice + twice * more;
 }
 

@@ -59,6 +59,14 @@ Quat turned(const Quat& rotation, const Vec3<Real>& angular_velocity, int expone
 
 }  // namespace
 
+Scaled rotational_energy(const BodyProperties& properties, const Vec3<Real>& local) {
+  const auto term = [&](Real value, int i) {
+    const Scaled factor = scaled_from(value);
+    return multiply(multiply(factor, factor), properties.inverse_inertia[i]);
+  };
+  return add(term(local.x, 0), add(term(local.y, 1), term(local.z, 2)));
+}
+
 FreeRotation free_rotation_of(const BodyProperties& properties) {
   FreeRotation free = {Scaled(0.0), Scaled(0.0), Scaled(0.0), 0};
   if (!is_dynamic(properties) || is_isotropic(properties)) return free;

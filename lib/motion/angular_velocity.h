@@ -54,6 +54,10 @@ inline Real angle_of(Real arc, int exponent, bool& clamped) {
   return scale_by_power(held, -exponent);
 }
 
+/// Twice the kinetic energy of rotation per unit mass, m^2/s^2. `local`: the angular momentum as in BodyMotion, but in
+/// the body's axes.
+Scaled rotational_energy(const BodyProperties& properties, const Vec3<Real>& local);
+
 /// Inverse inertia times v, in the body's axes.
 inline Vec3<Real> gyrate(const BodyProperties& properties, const Vec3<Real>& v) {
   return {multiply(v.x, properties.inverse_inertia[0]), multiply(v.y, properties.inverse_inertia[1]),

@@ -133,8 +133,7 @@ void MoverMotion::add_terrain(const QueryHit& hit) {
     beside.normal = geometry.normal;
     const Vec3<Unit>& arm = point.arm_b;
     const int exponent = shape.properties.size_exponent;
-    const Vec3<Real> displacement = {real_from_unit(arm.x, exponent), real_from_unit(arm.y, exponent),
-                                     real_from_unit(arm.z, exponent)};
+    const Vec3<Real> displacement = real_from_unit(arm, exponent);
     beside.point = moved(position_, displacement - geometry.normal * scale_by_power(point.separation, -1));
     add_plane(plane_at(beside, point.separation - settings_.gap));
   }

@@ -70,8 +70,7 @@ inline Vec3<Real> half_bounds(const BodyProperties& properties, const Matrix3& r
     const Unit ball = properties.bounding_radius;
     half = {min(half.x, ball), min(half.y, ball), min(half.z, ball)};
   }
-  return {real_from_unit(half.x, properties.size_exponent), real_from_unit(half.y, properties.size_exponent),
-          real_from_unit(half.z, properties.size_exponent)};
+  return real_from_unit(half, properties.size_exponent);
 }
 
 /// Enlarges `bounds` so that they contain `other`.

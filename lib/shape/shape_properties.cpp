@@ -328,8 +328,7 @@ Status set_shape_properties(const Shape& shape, BodyProperties& properties, cons
   const Vec3<Real>& size = measure.size;
   properties.shape = static_cast<uint32_t>(shape.type);
   properties.size_exponent = exponent;
-  properties.size = {unit_from_real(size.x, exponent), unit_from_real(size.y, exponent),
-                     unit_from_real(size.z, exponent)};
+  properties.size = unit_from_real(size, exponent);
   properties.bounding_radius = unit_from_real(bound, exponent);
   properties.rounding = unit_from_real(shape.rounding + measure.thickness, exponent);
   properties.asset = 0;

@@ -7,6 +7,7 @@
 #include "motion/contact_motion.h"
 #include "motion/inverse_inertia.h"
 #include "shape/shape_properties.h"
+#include "solver/contact_arms.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -107,6 +108,16 @@ Unit mass_of(Real response) {
 }
 Scaled angular_mass_of(Real response) {
   return response > Real(0.0) ? divide(Scaled(1.0), scaled_from(response)) : Scaled(0.0);
+}
+
+/// The greatest eigenvalue of the 2 x 2 response of the parts i and i + 1 of the motion to each other.
+Real greatest_response(const PairResponse& response, Part i) {
+  const Real* const row = response.part + response_index(i + 1, i);
+  const Real first = response.part[response_index(i, i)], second = row[1];
+  const Scaled apart = scaled_from(scale_by_power(first - second, -1)), both = scaled_from(row[0]);
+  bool saturated = false;
+  return scale_by_power(first + second, -1) +
+         to_real(square_root(add(multiply(apart, apart), multiply(both, both))), saturated);
 }
 
 /// Computes the matrix K that couples the normal rows of a contact's points, and the effective mass 1 / K_ii of each
@@ -219,16 +230,20 @@ Real approach_at_touch(Real velocity, Real separation, Real pull) {
 __attribute__((noinline)) Real parted_by_sliding(const StepSettings& settings, const RowBody& a, const RowBody& b,
                                                  const Vec3<Unit>& normal, const ContactGeometryPoint& point) {
   const Unit round_a = round_radius(a.properties), round_b = round_radius(b.properties);
-  const auto velocity_of = [](const RowBody& body, const Vec3<Unit>& arm) {
-    const Vec3<Real> turning = cross(body.angular_velocity, arm);
+  // The velocity of the centre of curvature. `away`: from the other body. The arms end in the middle of the gap.
+  const auto velocity_of = [&](const RowBody& body, const Vec3<Unit>& arm, const Vec3<Unit>& away, Unit round) {
+    const int unit = body.properties.size_exponent;
+    const Real half_gap = min(scale_by_power(point.separation, -1), real_from_unit(Unit(1.0), unit));
+    const Vec3<Real> turning = cross(body.angular_velocity, arm + away * (round + unit_from_real(half_gap, unit)));
     return body.motion.linear_velocity + scale_by_power(turning, k_angular_velocity_power);
   };
   const Vec3<Real> velocity =
-      velocity_of(b, point.arm_b + normal * round_b) - velocity_of(a, point.arm_a - normal * round_a);
+      velocity_of(b, point.arm_b, normal, round_b) - velocity_of(a, point.arm_a, -normal, round_a);
   const Vec3<Real> across = velocity - normal * dot(velocity, normal);
   const Real distance = real_from_unit(round_a, a.properties.size_exponent) +
                         real_from_unit(round_b, b.properties.size_exponent) + point.separation;
-  const Real displacement = min(length(across) * settings.tick_time, distance);
+  // At most 16 D, so that the result fits a Real.
+  const Real displacement = min(length(across) * settings.tick_time, scale_by_power(distance, 4));
   return displacement * divide(displacement, distance);
 }
 
@@ -264,6 +279,16 @@ Unit place_points(const ContactGeometry& geometry, Vec3<Unit> ContactGeometryPoi
   return scale_by_power(square_root(max(sum, Unit(0.0))), 1);
 }
 
+/// Rotates the points about the normal by a small angle, rad, to first order.
+void rotate_points(Unit angle, ContactWork& work) {
+  for (uint32_t i = 0; i < work.state.point_count; ++i) {
+    const Unit x = work.x[i], y = work.y[i];
+    const Vec3<Unit> place = fine_arm({x - angle * y, y + angle * x, Unit(0.0)});
+    work.x[i] = place.x;
+    work.y[i] = place.y;
+  }
+}
+
 }  // namespace
 
 void renew_response(const WorldInverseInertia& a, const WorldInverseInertia& b, ContactWork& work) {
@@ -275,25 +300,27 @@ void renew_response(const WorldInverseInertia& a, const WorldInverseInertia& b, 
   for (int i = 0; i < k_responses; ++i)
     work.response[i] = fine(unit_from_real(response.part[i], work.response_exponent));
   couple(response, work);
-  work.friction_mass[0] = fine(mass_of(own(k_along_first)));
-  work.friction_mass[1] = fine(mass_of(own(k_along_second)));
-  for (int i = 0; i < 3; ++i) work.angular_mass[i] = fine(angular_mass_of(own(static_cast<Part>(k_about_normal + i))));
+  work.friction_mass = fine(mass_of(greatest_response(response, k_along_first)));
+  work.twist_mass = fine(angular_mass_of(own(k_about_normal)));
+  work.rolling_mass = fine(angular_mass_of(greatest_response(response, k_about_first)));
 }
 
 void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b, const ContactGeometry& geometry,
-               ContactWork& work) {
+               Real ahead, ContactWork& work) {
   work.normal = fine(geometry.normal);
   make_tangents(work.normal, work.tangent);
   for (Vec3<Unit>& tangent : work.tangent) tangent = fine(tangent);
   share_mass(a.properties, b.properties, work);
   const int32_t unit = share_length(a.properties, b.properties, work);
-  work.middle_a = fine_arm(mean(geometry, &ContactGeometryPoint::arm_a));
-  work.middle_b = fine_arm(mean(geometry, &ContactGeometryPoint::arm_b));
+  Vec3<Unit> middle_a = mean(geometry, &ContactGeometryPoint::arm_a);
+  Vec3<Unit> middle_b = mean(geometry, &ContactGeometryPoint::arm_b);
+  const Unit patch = work.unit_a == Unit(1.0) ? place_points(geometry, &ContactGeometryPoint::arm_a, middle_a, work)
+                                              : place_points(geometry, &ContactGeometryPoint::arm_b, middle_b, work);
+  if (ahead != k_zero) rotate_points(advance_arms(a, b, work.normal, ahead, middle_a, middle_b), work);
+  work.middle_a = fine_arm(middle_a);
+  work.middle_b = fine_arm(middle_b);
   work.moment_a = fine_arm(cross(work.middle_a, work.normal));
   work.moment_b = fine_arm(cross(work.middle_b, work.normal));
-  const Unit patch = work.unit_a == Unit(1.0)
-                         ? place_points(geometry, &ContactGeometryPoint::arm_a, work.middle_a, work)
-                         : place_points(geometry, &ContactGeometryPoint::arm_b, work.middle_b, work);
 
   renew_response(a.inverse_inertia, b.inverse_inertia, work);
 

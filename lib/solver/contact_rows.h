@@ -25,6 +25,8 @@ struct RowBody {
 
 /// Fills the rows of `work` from the geometry: arms, responses, effective masses, limits, and the approach speeds at
 /// the start of the tick. `work.state` must be set before the call; its impulses are converted to the contact's frame.
+/// `ahead`: the arms are those at this time, s, after the geometry, see advance_arms(). The solver passes half a tick:
+/// arms in the middle of the tick make its errors of second order.
 ///
 /// With n the normal from A to B, t and s the tangents, r_A and r_B the arms from the centres, v and w the velocities
 /// and angular velocities, u the pair's unit of length, and columns (v_A, w_A, v_B, w_B), the rows are:
@@ -41,7 +43,8 @@ struct RowBody {
 ///
 /// All K are stored times the reference mass m, the mass of the lighter dynamic body: `coupling` has the K of the
 /// normal rows of each pair of points, `response` the K of the parts of a wrench at the middle of the points. The
-/// effective masses `inverse_mass`, `friction_mass` and `angular_mass` are 1 / (m K), with the K of a row with itself.
+/// effective masses `inverse_mass` and `twist_mass` are 1 / (m K), with the K of a row with itself. `friction_mass` and
+/// `rolling_mass` are those of a pair of rows: 1 / (m k), with the greatest eigenvalue k of their 2 x 2 matrix K.
 /// The solver accumulates the impulse of each row, within these limits:
 ///
 ///     normal:   impulse >= 0
@@ -52,7 +55,7 @@ struct RowBody {
 /// A friction, twist or rolling row has no C: its target is J v = 0. contact_solver.h has the targets of the normal
 /// rows.
 void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b, const ContactGeometry& geometry,
-               ContactWork& work);
+               Real ahead, ContactWork& work);
 
 /// Leaves the impact of a contact to continuous collision, if the contact's bodies do not overlap and approach so fast
 /// that they will rebound. For this, the function disables the normal rows of the contact: it sets their effective

@@ -10,6 +10,8 @@ inline namespace DETENT_NAMESPACE {
 inline constexpr int k_arrival_power = -9;
 /// Largest number of rounds of block pivoting in solve_rows().
 inline constexpr int k_pivot_rounds = 6;
+/// Number of solves of a rebound. Each leaves 1/33 of the error, because of k_rigid_softness (1/32).
+inline constexpr uint32_t k_rebound_rounds = 5;
 /// Softness of a row that is not a spring, as a fraction of the row's diagonal element of K. Without it, the impulses
 /// of redundant points would be indefinite.
 inline constexpr Unit k_rigid_softness = 1.0 / 32;
@@ -195,19 +197,17 @@ struct Sliding {
   }
   /// Applies an impulse along or about the axis `by`, and updates the motion with the column `by` of the response
   /// matrix.
-  template <Part by>
-  void act(Factor more) {
+  DETENT_SPECIALISED void act(Part by, Factor more) {
     wrench[by] += more;
     DETENT_UNROLL
     for (int i = 0; i < k_parts; ++i)
       part[i] += times_scaled(more, contact.response[response_index(i, by)], contact.response_exponent);
   }
   /// Sets an accumulated impulse to `after`, and applies the difference.
-  template <Part by>
-  void bring(Factor after, typename Kind::Real& impulse) {
+  DETENT_SPECIALISED void bring(Part by, Factor after, typename Kind::Real& impulse) {
     const Factor more = held(after - block.number(impulse));
     impulse += block.real(Number(more));
-    act<by>(more);
+    act(by, more);
   }
 };
 
@@ -323,11 +323,7 @@ struct ContactSolver {
     }
     normals.solve_rows(settings.relaxation);
     normals.store(motion.block, contact);
-    Number along, about_first, about_second;
-    normals.put(along, about_first, about_second);
-    sliding.template act<k_along_normal>(held(along));
-    sliding.template act<k_about_first>(held(about_first));
-    sliding.template act<k_about_second>(held(about_second));
+    act_along_normal(normals, sliding);
 
     // Friction is solved after the normal rows. In the other order, the normal impulses would make a body creep down a
     // slope.
@@ -336,6 +332,44 @@ struct ContactSolver {
     if (contact.angular_rows != 0) twist(normal, sliding);
     solve_friction(normal, sliding);
     apply_wrench<Kind>(contact, motion.block, sliding.wrench, a, b);
+  }
+
+  /// Applies Newton's law of impact (restitution) to the points that approached faster than ContactWork::rebound_min
+  /// and had a normal impulse in this tick. Points that rebound together share the impulse: an impulse at a single
+  /// point would rotate the body into the other points. Then the friction of these impulses, which adds to that of the
+  /// load.
+  void rebound() {
+    if (!is_positive(contact.restitution)) return;
+    const uint32_t count = contact.state.point_count;
+    uint32_t rebounds = 0;  // a bit for each point
+    for (uint32_t i = 0; i < count; ++i) {
+      if (contact.approach[i] <= -contact.rebound_min && contact.impulse_max[i] != Real(0.0)) rebounds |= 1U << i;
+    }
+    if (rebounds == 0) return;
+    typename Kind::Block room;
+    room.include(contact.state.normal_impulse, count);
+    room.include(contact.approach, count);
+    const PairMotion<Kind> motion = relative_motion(room);
+    Sliding<Kind> sliding(contact, motion);
+    Normals<Kind> normals(contact, motion.block, sliding.normal());
+    for (uint32_t round = 0; round < k_rebound_rounds; ++round) {
+      for (uint32_t i = 0; i < count; ++i) {
+        normals.may[i] = (rebounds >> i & 1U) != 0;
+        normals.wanted[i] =
+            held(normals.speed(i) + motion.block.held(multiply(contact.approach[i], contact.restitution)));
+      }
+      normals.solve_rows(Unit(1.0));
+    }
+    act_along_normal(normals, sliding);
+    // Points that part too fast lose impulse. Such a loss has no friction.
+    const Factor gained = max(held(sliding.wrench[k_along_normal]), Kind::zero());
+    typename Kind::Real friction[2] = {Real(0.0), Real(0.0)};
+    stop_in_circle(k_along_first, friction, contact.friction_mass, times(gained, contact.friction), sliding);
+    apply_wrench<Kind>(contact, motion.block, sliding.wrench, a, b);
+    for (uint32_t i = 0; i < count; ++i) {
+      // The point separates: no impulse is carried over to the next tick.
+      if ((rebounds >> i & 1U) != 0) contact.state.normal_impulse[i] = Real(0.0);
+    }
   }
 
   PairMotion<Kind> relative_motion(const typename Kind::Block& room) const {
@@ -355,35 +389,48 @@ struct ContactSolver {
     return held(sum);
   }
 
+  /// Applies the changes of the normal impulses to the motion.
+  void act_along_normal(const Normals<Kind>& normals, Sliding<Kind>& sliding) const {
+    Number along, about_first, about_second;
+    normals.put(along, about_first, about_second);
+    sliding.act(k_along_normal, held(along));
+    sliding.act(k_about_first, held(about_first));
+    sliding.act(k_about_second, held(about_second));
+  }
+
   /// Returns the accumulated impulse that stops one part of the motion.
   template <class Mass>
-  Factor stopped(const Sliding<Kind>& sliding, Part by, const typename Kind::Real& impulse, const Mass& mass) const {
+  DETENT_SHARED Factor stopped(const Sliding<Kind>& sliding, Part by, const typename Kind::Real& impulse,
+                               const Mass& mass) const {
     return held(sliding.block.number(impulse) -
                 relaxed<Kind>(times(held(sliding.part[by]), mass), settings.relaxation));
   }
-  /// Stops two parts of the motion, with accumulated impulses limited to a circle.
-  template <Part first, Part second, class Mass>
-  void stop_in_circle(typename Kind::Real* impulse, const Mass* mass, Factor radius, Sliding<Kind>& sliding) {
-    Factor after[2] = {stopped(sliding, first, impulse[0], mass[0]), stopped(sliding, second, impulse[1], mass[1])};
+  /// Stops two parts of the motion, with accumulated impulses limited to a circle. One effective mass for both makes
+  /// the impulse of a sliding contact oppose its velocity.
+  template <class Mass>
+  DETENT_SPECIALISED void stop_in_circle(Part first, typename Kind::Real* impulse, const Mass& mass, Factor radius,
+                                         Sliding<Kind>& sliding) {
+    const Part second = static_cast<Part>(first + 1);
+    Factor after[2] = {stopped(sliding, first, impulse[0], mass), stopped(sliding, second, impulse[1], mass)};
     clamp_to_circle(after, radius);
-    sliding.template bring<first>(after[0], impulse[0]);
-    sliding.template bring<second>(after[1], impulse[1]);
+    sliding.bring(first, after[0], impulse[0]);
+    sliding.bring(second, after[1], impulse[1]);
   }
   /// Solves rolling friction: stops the angular velocity about the tangents, within the limit of the impulse.
   void solve_rolling(Factor normal, Sliding<Kind>& sliding) {
-    stop_in_circle<k_about_first, k_about_second>(contact.angular_impulse + 1, contact.angular_mass + 1,
-                                                  times(normal, contact.rolling_arm), sliding);
+    stop_in_circle(k_about_first, contact.angular_impulse + 1, contact.rolling_mass, times(normal, contact.rolling_arm),
+                   sliding);
   }
   /// Solves twist friction: stops the angular velocity about the normal, within the limit of the impulse.
   void twist(Factor normal, Sliding<Kind>& sliding) {
     const Factor limit = times(normal, contact.twist_arm);
-    const Factor step = stopped(sliding, k_about_normal, contact.angular_impulse[0], contact.angular_mass[0]);
-    sliding.template bring<k_about_normal>(clamp(step, Factor(-limit), limit), contact.angular_impulse[0]);
+    const Factor step = stopped(sliding, k_about_normal, contact.angular_impulse[0], contact.twist_mass);
+    sliding.bring(k_about_normal, clamp(step, Factor(-limit), limit), contact.angular_impulse[0]);
   }
   /// Solves sliding friction: stops the velocity along the tangents, within the friction cone.
   void solve_friction(Factor normal, Sliding<Kind>& sliding) {
-    stop_in_circle<k_along_first, k_along_second>(contact.friction_impulse, contact.friction_mass,
-                                                  times(normal, contact.friction), sliding);
+    stop_in_circle(k_along_first, contact.friction_impulse, contact.friction_mass, times(normal, contact.friction),
+                   sliding);
   }
 };
 

@@ -229,7 +229,7 @@ struct LaneContact {
   /// `coupling_step`: the value of the last bit of a mantissa of `coupling`. `coupling_power`: 1 / coupling_step.
   LaneUnits<count> coupling_power, coupling_step;
 #endif
-  LaneUnits<count> friction_mass[2];
+  LaneUnits<count> friction_mass;
   Vec3<LaneUnits<count>> middle_a, middle_b;
   LaneUnits<count> response[k_responses];
   static constexpr int response_exponent = 0;  // `response` includes the exponent
@@ -237,7 +237,7 @@ struct LaneContact {
   LaneStoredInt32<count> apart[k_manifold_points_max];
   LaneReals<count> separation[k_manifold_points_max], impulse_max[k_manifold_points_max];
   LaneReals<count> friction_impulse[2], angular_impulse[3];
-  LaneScaled<count> angular_mass[3];
+  LaneScaled<count> twist_mass, rolling_mass;
   LaneShare<count> inverse_mass_a, inverse_mass_b;
   LaneScaled<count> friction, twist_arm, rolling_arm;
   LaneReals<count> push_max;

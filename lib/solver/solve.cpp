@@ -67,40 +67,6 @@ uint32_t integrate_positions(const SolverBodies& bodies, Span<const uint32_t> is
   return clamped;
 }
 
-/// Number of solves of a rebound. Each leaves 1/33 of the error, because of k_rigid_softness (1/32).
-constexpr uint32_t k_rebound_rounds = 5;
-
-/// Applies Newton's law of impact (restitution) to the points of a contact that approached faster than
-/// ContactWork::rebound_min and had a normal impulse in this tick.
-void rebound(ContactSolver<One>& solver) {
-  ContactWork& contact = solver.contact;
-  if (!is_positive(contact.restitution)) return;
-  Block room;
-  const uint32_t count = contact.state.point_count;
-  room.include(contact.state.normal_impulse, count);
-  room.include(contact.approach, count);
-  const PairMotion<One> motion = solver.relative_motion(room);
-  Normals<One> normals(contact, motion.block, NormalMotion<One>(motion, contact));
-  // Points that rebound together share the impulse: an impulse at a single point would rotate the body into the other
-  // points.
-  for (uint32_t round = 0; round < k_rebound_rounds; ++round) {
-    for (uint32_t i = 0; i < count; ++i) {
-      normals.may[i] = contact.approach[i] <= -contact.rebound_min && contact.impulse_max[i] != k_zero;
-      normals.wanted[i] =
-          held(normals.speed(i) + motion.block.held(multiply(contact.approach[i], contact.restitution)));
-    }
-    normals.solve_rows(Unit(1.0));
-  }
-  Ulps along, about_first, about_second;
-  normals.put(along, about_first, about_second);
-  apply_normal<One>(contact, motion.block, along, about_first, about_second, solver.a, solver.b);
-  for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
-    if (i >= count) break;
-    // The point separates: no impulse is carried over to the next tick.
-    if (normals.may[i]) contact.state.normal_impulse[i] = k_zero;
-  }
-}
-
 constexpr uint32_t k_joint_rounds = 4;  ///< rounds per substep that alternate between contacts and joints
 
 /// Stores the bodies' current velocities, for has_settled().
@@ -281,7 +247,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
   constexpr ContactPass k_warm_start = {[](Solver& contact) { contact.warm_start(); }, warm_start_lanes};
   constexpr ContactPass k_solve_normals = {[](Solver& contact) { contact.solve_normals(); }, solve_normals_lanes};
   constexpr ContactPass k_relax = {[](Solver& contact) { contact.relax(); }, relax_lanes};
-  constexpr ContactPass k_rebound = {rebound, nullptr};
+  constexpr ContactPass k_rebound = {[](Solver& contact) { contact.rebound(); }, nullptr};
   SolveCount count;
   const Span<const ContactOrder> order = all.order;
   put_all_in_lanes(settings, bodies, all);

@@ -67,12 +67,12 @@ DETENT_LANES_INLINE void read_rows(Contacts<count> from, LaneContact<count>& to)
   to.middle_a = words.vector(DETENT_AT(middle_a));
   to.middle_b = words.vector(DETENT_AT(middle_b));
   words.units(DETENT_AT(response), to.response, words.word(DETENT_AT(response_exponent)));
-  words.units(DETENT_AT(friction_mass), to.friction_mass);
+  to.friction_mass = words.unit(DETENT_AT(friction_mass));
   to.friction = words.scaled(DETENT_AT(friction));
   to.twist_arm = words.scaled(DETENT_AT(twist_arm));
   to.rolling_arm = words.scaled(DETENT_AT(rolling_arm));
-  for (uint32_t i = 0; i < 3; ++i)
-    to.angular_mass[i] = words.scaled(DETENT_AT(angular_mass) + i * static_cast<uint32_t>(sizeof(Scaled)));
+  to.twist_mass = words.scaled(DETENT_AT(twist_mass));
+  to.rolling_mass = words.scaled(DETENT_AT(rolling_mass));
 }
 
 template <uint32_t count>

@@ -48,7 +48,6 @@ struct TraceContact {
   Vec3<Unit> normal;
   Vec3<Unit> middle_a, middle_b;
   Unit inverse_mass[k_manifold_points_max];
-  Unit friction_mass[2];
   Unit response[21];
 };
 /// The data of a moving body in the work space of a step.

@@ -213,13 +213,11 @@ Status get_velocity_at(const World& world, BodyId id, const Vec3<Real>& arm, Vec
   const int exponent = body.properties->size_exponent + 1;
   if (!within(arm, real_from_unit(body.properties->bounding_radius, exponent))) return Status::out_of_range;
   const BodyMotion& motion = body.state.motions[body.slot];
-  const Vec3<Unit> halved = {unit_from_real(arm.x, exponent), unit_from_real(arm.y, exponent),
-                             unit_from_real(arm.z, exponent)};
+  const Vec3<Unit> halved = unit_from_real(arm, exponent);
   const Vec3<Real> half = cross(
       angular_velocity_of(*body.properties, body.state.poses[body.slot].rotation, motion.angular_momentum), halved);
   if (!within(half, Real(56000.0))) return Status::out_of_range;  // twice this plus a velocity fits a Real
-  velocity = motion.linear_velocity +
-             Vec3<Real>{scale_by_power(half.x, 1), scale_by_power(half.y, 1), scale_by_power(half.z, 1)};
+  velocity = motion.linear_velocity + scale_by_power(half, 1);
   return Status::ok;
 }
 

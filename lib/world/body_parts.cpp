@@ -106,9 +106,7 @@ Status make_motion(const BodyProperties& properties, const Quat& rotation, const
   const bool moves = !(velocity == k_zero_vector), turns = !(angular_velocity == k_zero_vector);
   if ((moves || turns) && type_of(properties) == BodyType::fixed) return Status::bad_argument;
   if (turns && is_half_space(properties)) return Status::bad_argument;
-  const Vec3<Real> angular_velocity_speed = {scale_by_power(angular_velocity.x, exponent),
-                                             scale_by_power(angular_velocity.y, exponent),
-                                             scale_by_power(angular_velocity.z, exponent)};
+  const Vec3<Real> angular_velocity_speed = scale_by_power(angular_velocity, exponent);
   if (!within(angular_velocity_speed * properties.bounding_radius, k_speed_max)) return Status::out_of_range;
   motion.linear_velocity = velocity;
   motion.angular_momentum = angular_velocity_speed;

@@ -86,8 +86,7 @@ Status get_contact(const World& world, uint32_t index, Contact& contact) {
   for (uint32_t i = 0; i < geometry.count; ++i) {
     const Vec3<Unit>& arm = by_a ? geometry.point[i].arm_a : geometry.point[i].arm_b;
     ContactPoint& point = made.point[i];
-    point.position = moved(
-        centre, {real_from_unit(arm.x, exponent), real_from_unit(arm.y, exponent), real_from_unit(arm.z, exponent)});
+    point.position = moved(centre, real_from_unit(arm, exponent));
     point.separation = geometry.point[i].separation;
     point.feature = geometry.point[i].feature;
     point.child_a = geometry.point[i].part >> 16;

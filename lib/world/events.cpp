@@ -53,8 +53,7 @@ struct EventWriter {
     ContactEvent event =
         event_of(touched ? ContactEventType::touch : ContactEventType::begin, state.body_a, state.body_b);
     event.normal = contact.normal;
-    event.point = moved(poses[body].position, {real_from_unit(arm.x, exponent), real_from_unit(arm.y, exponent),
-                                               real_from_unit(arm.z, exponent)});
+    event.point = moved(poses[body].position, real_from_unit(arm, exponent));
     add(event);
     const Real approach = approach_of(contact);
     if (approach < contact.rebound_min) return;

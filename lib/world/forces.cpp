@@ -41,12 +41,10 @@ struct BodyPush {
     if (!within(arm, real_from_unit(properties().bounding_radius, exponent + 1))) return Status::out_of_range;
     if (!within(speed, k_speed_work_max)) return Status::out_of_range;
     // The arm is in units of twice the body's unit of length, so that an arm of twice the bounding radius fits a Unit.
-    const Vec3<Unit> arm_halved = {unit_from_real(arm.x, exponent + 1), unit_from_real(arm.y, exponent + 1),
-                                   unit_from_real(arm.z, exponent + 1)};
+    const Vec3<Unit> arm_halved = unit_from_real(arm, exponent + 1);
     const Vec3<Real> change_of_rotation = cross(arm_halved, speed);
     velocity += speed;
-    angular_momentum += Vec3<Real>{scale_by_power(change_of_rotation.x, 1), scale_by_power(change_of_rotation.y, 1),
-                                   scale_by_power(change_of_rotation.z, 1)};
+    angular_momentum += scale_by_power(change_of_rotation, 1);
     return Status::ok;
   }
   Vec3<Real> arm_to(const Position& point) const { return real_difference(point, state.poses[slot].position); }

@@ -377,7 +377,9 @@ struct Collider {
     if (recycles()) room.manifolds()[place] = manifold;
     ContactWork& work = room.contacts()[place];
     work.state = continued_contact(slot_a, slot_b, part, geometry, before);
-    make_rows(settings, bodies.at(slot_a), bodies.at(slot_b), geometry, work);
+    // The velocities of bodies that only now collide do not last.
+    const Real ahead = is_pushed(work) ? scale_by_power(settings.tick_time, -1) : k_zero;
+    make_rows(settings, bodies.at(slot_a), bodies.at(slot_b), geometry, ahead, work);
     if (work.static_pair == 0 && is_positive(work.restitution)) rebounds = 1;
     if (is_full) {
       ContactOrder made = {};

@@ -84,6 +84,7 @@ test('every sample loads, is drawn, and has the digest of detent run after 60 ti
 
 test('the list is searched by names and descriptions', sampleOptions, async () => {
   const page = await open(samplesPage.href);
+  await page.locator('#list button').first().waitFor();
   const shown = () => page.locator('#list button:visible').allTextContents();
   assert.equal((await shown()).length, samples.length);
   await page.fill('#search', 'stones arch');

@@ -130,11 +130,12 @@ struct alignas(8) ContactWork {
   /// Motion of the pair per unit wrench; response_index() gives the index. Mantissas, times 2^response_exponent.
   Unit response[21];
   int32_t response_exponent;
-  alignas(sizeof(Unit)) Unit friction_mass[2];  ///< effective masses along the tangents, in (0, 1]
+  alignas(sizeof(Unit)) Unit friction_mass;  ///< effective mass along the tangents, in (0, 1]
   Scaled friction;
   Scaled twist_arm;        ///< largest angular impulse about the normal / normal impulse
   Scaled rolling_arm;      ///< largest angular impulse about the tangents / normal impulse
-  Scaled angular_mass[3];  ///< effective masses about the normal and the tangents
+  Scaled twist_mass;       ///< effective mass about the normal
+  Scaled rolling_mass;     ///< effective mass about the tangents
   Scaled restitution;
 
   /// Separation at the start of the tick, m. For round shapes it includes the growth of the gap by sliding
@@ -315,8 +316,8 @@ struct alignas(8) JointLanes {
 /// between them has coupled them.
 struct JointCoupling {
   uint32_t joint[2];  ///< the joint that is eliminated first, the other joint
-  /// Index 0: the next coupling of the first joint with a joint that is eliminated later. While the order is computed:
-  /// the next coupling of each of the two joints, as 2 x coupling + end.
+  /// Index 0: the next coupling of the first joint, with a joint that is eliminated still later. While the order is
+  /// computed: the next coupling of each of the two joints, as 2 x coupling + end.
   uint32_t next[2];
   /// Index of the block's first number. The block has rows of the first joint x rows of the other joint numbers; with
   /// lanes, a row is rounded up to 4 or 8 numbers.

@@ -200,6 +200,7 @@ bool measure_all(const std::vector<Child>& children, int exponent, std::vector<M
     };
     const auto vector = [&](const Point& p) { return detent::Vec32{steps(p[0]), steps(p[1]), steps(p[2])}; };
     Measured one = {};
+    if (ldexp(from.part.radius, 30 - exponent) >= k_one) return false;
     one.child.radius = steps(from.part.radius);
     detent::HullView hull;
     const std::vector<uint64_t> words = aligned_to_8(from.hull);

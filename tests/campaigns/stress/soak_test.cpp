@@ -142,13 +142,13 @@ struct Ending {
   uint64_t digest;
 };
 #if defined(DETENT_FX64)
-constexpr Ending k_endings[] = {{10000, 0x849a4a8ad54f4ccb}, {1000000, 0x4e2a1c69122d9cb4}};
+constexpr Ending k_endings[] = {{10000, 0x87f028a428f83e8c}, {1000000, 0x54ad637fc2c87329}};
 #elif defined(DETENT_FX32)
-constexpr Ending k_endings[] = {{10000, 0x653521b95d58c7e3}, {1000000, 0x53cba34c5252fa8a}};
+constexpr Ending k_endings[] = {{10000, 0x499bb4d0e693560a}, {1000000, 0x9230804cc503fd02}};
 #elif defined(DETENT_F32)
-constexpr Ending k_endings[] = {{10000, 0xf91315e711f34042}};
+constexpr Ending k_endings[] = {{10000, 0xbf2ae41cff655a75}};
 #else
-constexpr Ending k_endings[] = {{10000, 0x16305920d13f33e6}};
+constexpr Ending k_endings[] = {{10000, 0x3368407072f23210}};
 #endif
 
 /// A million ticks if DETENT_FULL is set.

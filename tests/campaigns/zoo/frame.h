@@ -79,6 +79,9 @@ class Play {
   /// Makes the calls before the next tick. Returns whether there were any; on failure sets `problem`.
   virtual bool call(std::string& problem) = 0;
   virtual StepFigures step() = 0;
+  /// Makes gravity stronger by a number times 2^-16 of itself: a scene that differs a little. Returns
+  /// whether it did.
+  virtual bool vary(uint32_t /* number */) { return false; }
   /// From here on stages() counts, ns.
   virtual void start_profile() {}
   virtual detent_test::StageTimes stages() const { return {}; }

@@ -20,6 +20,7 @@ struct Options {
   std::vector<std::string> scenes, configs;
   std::string list_file = DETENT_ROOT "/tests/campaigns/zoo/zoo.csv", markdown;
   bool list = false, renew = false;
+  uint32_t vary = 0;
 };
 
 bool wanted(const std::vector<std::string>& names, const std::string& name) {
@@ -36,6 +37,23 @@ bool write_page(const std::string& path, const std::vector<Row>& rows) {
   std::ifstream file(path);
   const std::string page = {std::istreambuf_iterator<char>(file), {}};
   return static_cast<bool>(std::ofstream(path) << page_of(page, rows));
+}
+
+/// Plays variations of a scene and prints how many of them fail. Returns false if one could not be played.
+bool vary(const Entry& entry, const Engine& engine, uint32_t count) {
+  uint32_t fails = 0;
+  std::map<std::string, uint32_t> checks;
+  for (uint32_t number = 1; number <= count; ++number) {
+    const Verdict verdict = visit(entry, engine, k_folder, detent_test::Ground::own, number);
+    if (!verdict.problem.empty()) return cannot(entry.scene + ": " + verdict.problem) == k_exit_good;
+    fails += verdict.failed.empty() ? 0u : 1u;
+    for (const std::string& check : verdict.failed) ++checks[check];
+  }
+  printf("%s %s: %u of %u fail", entry.scene.c_str(), engine.config, fails, count);
+  for (const auto& [check, times] : checks) printf(", %s %u", check.c_str(), times);
+  printf("\n");
+  fflush(stdout);
+  return true;
 }
 
 int run(const Options& options) {
@@ -58,6 +76,11 @@ int run(const Options& options) {
         continue;
       }
       if (terminal) fprintf(stderr, "\r\033[K%s %s", entry.scene.c_str(), engine.config);
+      if (options.vary != 0) {
+        if (terminal) fprintf(stderr, "\r\033[K");
+        good = vary(entry, engine, options.vary) && good;
+        continue;
+      }
       const Row row = {&entry, engine.config, visit(entry, engine, k_folder)};
       const std::string surprise = surprises(entry, engine.config, row.verdict);
       if (terminal) fprintf(stderr, "\r\033[K");
@@ -73,7 +96,7 @@ int run(const Options& options) {
       rows.push_back(row);
     }
   }
-  if (options.list) return k_exit_good;
+  if (options.list || options.vary != 0) return good ? k_exit_good : k_exit_bad;
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   fprintf(stderr, "%zu runs, %.1f s\n", rows.size(), seconds.count());
   if (options.renew && !write_list(options.list_file, entries)) return cannot(options.list_file + " cannot be written");
@@ -94,10 +117,17 @@ int main(int argc, char** argv) {
   CLI::Option* const configs = app.add_option("--configs", options.configs, "Only these")->delimiter(',');
   app.add_option("--list-file", options.list_file, "Instead of tests/campaigns/zoo/zoo.csv")->capture_default_str();
   app.add_flag("--list", options.list, "List the scenes");
-  app.add_flag("--renew", options.renew, "Write the list anew: what failed in this run are the known gaps");
-  app.add_option("--markdown", options.markdown, "Write the table of all into this page: docs/zoo.md")
-      ->excludes(scenes)
-      ->excludes(configs);
+  CLI::Option* const renew =
+      app.add_flag("--renew", options.renew, "Write the list anew: what failed in this run are the known gaps");
+  CLI::Option* const markdown =
+      app.add_option("--markdown", options.markdown, "Write the table of all into this page: docs/zoo.md")
+          ->excludes(scenes)
+          ->excludes(configs);
+  app.add_option("--vary", options.vary,
+                 "Play each scene so often, each time with a slightly stronger gravity, and count the failures")
+      ->check(CLI::Range(1u, 1000u))
+      ->excludes(renew)
+      ->excludes(markdown);
   CLI11_PARSE(app, argc, argv);
   return run(options);
 }

@@ -34,6 +34,16 @@ class DetentPlay : public detent_zoo::Play {
     return figures;
   }
 
+  bool vary(uint32_t number) override {
+    const Vec3<Real> gravity = get_settings(scene_->world()).gravity;
+    Vec3<Real> stronger;
+    const auto set = [number](Real from, Real& to) {
+      return real_from_host(real_to_host(from) * (1 + number * 0x1p-16), to) == Status::ok;
+    };
+    return set(gravity.x, stronger.x) && set(gravity.y, stronger.y) && set(gravity.z, stronger.z) &&
+           set_gravity(scene_->world(), stronger) == Status::ok;
+  }
+
   void start_profile() override { profile_.attach(scene_->world()); }
   detent_test::StageTimes stages() const override { return profile_.times(); }
 

@@ -39,10 +39,15 @@ double measured(const Figures& figures, const std::string& check) {
   return std::max(figures.rest_speed / k_rest_speed, figures.rest_angular_velocity / k_rest_angular_velocity);
 }
 
-Verdict visit(const Entry& entry, const Engine& engine, const std::string& folder, detent_test::Ground ground) {
+Verdict visit(const Entry& entry, const Engine& engine, const std::string& folder, detent_test::Ground ground,
+              uint32_t variation) {
   Verdict verdict;
   const std::unique_ptr<Play> play = engine.open(folder + "/" + entry.scene + ".json", ground, verdict.problem);
   if (play == nullptr) return verdict;
+  if (variation != 0 && !play->vary(variation)) {
+    verdict.problem = "its gravity cannot be varied";
+    return verdict;
+  }
   play->start_profile();
   Watch watch(play->frame());
   for (uint32_t tick = 0; tick < play->ticks(); ++tick) {

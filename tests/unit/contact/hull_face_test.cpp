@@ -123,7 +123,7 @@ DETENT_TEST(hull_face, that_is_not_quite_flat_carries_as_a_whole) {
     const ContactManifold manifold = contact_between(lower.convex, pose_of({{0, -0.25, 0}}, k_upright), upper.convex,
                                                      pose_of({{0.1, 0.249, 0.05}}, rotation));
     ASSERT_EQ(manifold.count, 4u) << round;
-    EXPECT_GT(area_of(manifold), 0.35) << round;  // that of both is 0.68
+    EXPECT_GT(area_of(manifold), 0.345) << round;  // that of both is 0.68
     EXPECT_GT(unit_to_host(manifold.normal.y), 0.9999) << round;
   }
 }

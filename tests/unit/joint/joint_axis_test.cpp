@@ -492,6 +492,40 @@ DETENT_TEST(joint, a_soft_spring_under_a_weight_rests_where_both_balance) {
   }
 }
 
+/// A load on the ground bears a plate on a spring; a spring pulls up a weight that stands on the ground.
+DETENT_TEST(joint, a_damped_spring_is_as_stiff_where_the_ground_bears_its_load) {
+  for (const double frequency : {1.0, 4.0}) {
+    SCOPED_TRACE(frequency);
+    const double rate = 2 * k_pi * frequency;
+    JointDef rail;
+    rail.axis.frequency = real(frequency);
+    rail.axis.damping_ratio = real(0.7);
+    Lab lab(room(3, 1));
+    lab.add_ground();
+    const BodyId load = lab.add_box(0.2, 0, 0.2, 0), plate = lab.add_box(0.1, 0, 2, 0);
+    ASSERT_OK(set_mass(lab.world, load, scaled(40)));
+    ASSERT_OK(set_mass(lab.world, plate, scaled(10)));
+    add_joint(lab, JointType::slider, load, plate, 0, 2, 0, rail, k_x_to_y);
+    lab.run(600);
+    // The spring's frequency is that of both bodies against each other: its stiffness is rate^2 x 8 kg.
+    const double sag = 10 * 9.81 / (8 * rate * rate);
+    const double now = 1.8 - (lab.motion(plate).position[1] - lab.motion(load).position[1]);
+    EXPECT_NEAR(now, sag, 0.01 * sag);
+
+    Lab hung(room(3, 1));
+    hung.add_ground();
+    const BodyId beam = add_shape(hung, box(reals(0.1, 0.1, 0.1)), 0, 2, 0, BodyType::fixed);
+    const BodyId weight = hung.add_box(0.2, 0, 0.2, 0);
+    ASSERT_OK(set_mass(hung.world, weight, scaled(10)));
+    rail.axis.target = real(0.5 * 9.81 / (rate * rate));  // it bears half of the weight
+    const JointId joint = add_joint(hung, JointType::slider, beam, weight, 0, 0.2, 0, rail, k_x_to_y);
+    hung.run(600);
+    JointReaction reaction;
+    ASSERT_OK(get_joint_reaction(hung.world, joint, reaction));
+    EXPECT_NEAR(scaled_to_host(reaction.force.y), 49.05, 0.5);
+  }
+}
+
 }  // namespace
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

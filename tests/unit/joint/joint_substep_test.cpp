@@ -21,7 +21,7 @@ uint32_t substeps_for(double squared) {
 double bend_of(JointType type, const Vector (&linear_velocity)[2], const Vector (&angular_velocity)[2],
                const Vector (&anchor)[2], double length) {
   const auto size = [](Vector v) { return fabs(v.x) + fabs(v.y) + fabs(v.z); };
-  double bend = 4 * size(cross(angular_velocity[0], angular_velocity[1]));
+  double bend = 8 * size(cross(angular_velocity[0], angular_velocity[1]));
   for (int i = 0; i < 2; ++i) bend += size(cross(angular_velocity[i], cross(angular_velocity[i], anchor[i])));
   if (type != JointType::distance) return bend;
   const Vector apart = (linear_velocity[1] + cross(angular_velocity[1], anchor[1])) -
@@ -39,7 +39,7 @@ DETENT_TEST(joint, substeps_are_those_that_the_bends_of_its_ways_ask_for) {
   };
   for (const JointType type : k_joint_types) {
     uint32_t seen[33] = {};
-    for (uint32_t round = 0; round < 60; ++round) {
+    for (uint32_t round = 0; round < 120; ++round) {
       // Some pairs have one velocity, joints at the centres, or no angular velocity.
       const double fast = exp2(-static_cast<double>(round % 6));
       Vector linear_velocity[2] = {vector(4 * fast), vector(4 * fast)},

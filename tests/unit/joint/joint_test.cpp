@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <initializer_list>
 
 #include "tests/unit/joint/joint_lab.h"
 
@@ -94,6 +95,42 @@ DETENT_TEST(joint, a_pendulum_keeps_its_energy) {
   EXPECT_LE(energy_lost(0), 0.04) << "most of it as it starts, at one substep";
 }
 
+/// Hangs a body by a hinge about z at the origin from a fixed body.
+void hang(Lab& lab, const BodyDef& def, JointDef joint, BodyId& id) {
+  BodyDef post;
+  post.type = BodyType::fixed;
+  post.shape = sphere(real(0.01));
+  joint.a = lab.add(post);
+  joint.b = id = lab.add(def);
+  joint.type = JointType::hinge;
+  // The axis of a hinge is x of its frames.
+  constexpr Quat k_frame = {0.0, -0.70710678118654752, 0.0, 0.70710678118654752};
+  EXPECT_OK(place_joint(lab.world, position(0, 0, 0), k_frame, joint));
+  JointId made;
+  EXPECT_OK(create_joint(lab.world, joint, made));
+}
+
+DETENT_TEST(joint, a_slow_motor_keeps_its_bodies_awake_until_it_is_held_up) {
+  for (const bool limited : {false, true}) {
+    WorldDef world = weightless();
+    Lab lab(room(2, 1), world, true);
+    BodyDef def;
+    def.shape = box(reals(0.3, 0.3, 0.1));
+    def.position = position(0, -0.3, 0);
+    JointDef joint;
+    joint.axis.speed = real(0.02);
+    joint.axis.force_max = scaled(1000);
+    joint.axis.limited = limited;
+    joint.axis.lower = real(-0.01);
+    joint.axis.upper = real(0.01);
+    BodyId id;
+    hang(lab, def, joint, id);
+    const StepReport report = lab.run(300);
+    EXPECT_EQ(report.awake, limited ? 0u : 1u);
+    EXPECT_NEAR(fabs(lab.motion(id).angular_velocity[2]), limited ? 0 : 0.02, 1e-4);
+  }
+}
+
 DETENT_TEST(joint, what_a_joint_gives_one_body_it_takes_from_the_other) {
   for (const JointType type : k_joint_types) {
     SCOPED_TRACE(static_cast<int>(type));
@@ -128,6 +165,65 @@ DETENT_TEST(joint, what_a_joint_gives_one_body_it_takes_from_the_other) {
     EXPECT_LE(length(linear_after - linear), 1e-4 * length(linear));
     EXPECT_LE(length(angular_after - angular), 0.02 * length(angular));
   }
+}
+
+/// The angular momentum of bodies about the world's origin.
+Vector angular_momentum(Lab& lab, std::initializer_list<BodyId> ids) {
+  Vector sum = {0, 0, 0};
+  for (const BodyId id : ids) {
+    const Motion motion = lab.motion(id);
+    Scaled mass;
+    Vec3<Scaled> inertia;
+    EXPECT_OK(get_mass(lab.world, id, mass));
+    EXPECT_OK(get_inertia(lab.world, id, inertia));
+    const double about[3] = {scaled_to_host(inertia.x), scaled_to_host(inertia.y), scaled_to_host(inertia.z)};
+    const Vector at = {motion.position[0], motion.position[1], motion.position[2]};
+    const Vector linear_velocity = {motion.linear_velocity[0], motion.linear_velocity[1], motion.linear_velocity[2]};
+    const Vector angular_velocity = {motion.angular_velocity[0], motion.angular_velocity[1],
+                                     motion.angular_velocity[2]};
+    const JointEnd axes = joint_end(lab.world, id, reals(0, 0, 0), {0.0, 0.0, 0.0, 1.0});
+    sum = sum + cross(at, linear_velocity) * scaled_to_host(mass);
+    for (int i = 0; i < 3; ++i) sum = sum + axes.axis[i] * (about[i] * dot(angular_velocity, axes.axis[i]));
+  }
+  return sum;
+}
+
+/// A wheel of radius `size` on an axle of the same length, which a ball joint holds at its end. It spins and precesses
+/// steadily. Returns how far it sinks in 2 s, in lengths of the axle.
+double sunk_gyroscope(double size, double spin) {
+  Lab lab(room(2, 1));
+  const BodyId post = add_shape(lab, sphere(real(0.01)), 0, 0, 0, BodyType::fixed);
+  BodyDef def;
+  def.shape = cylinder(real(size), real(size / 5));
+  def.rotation = {0.0, 0.0, -0.70710678118654752, 0.70710678118654752};  // y to x
+  def.position = position(size, 0, 0);
+  const BodyId wheel = lab.add(def);
+  const double precession = 9.81 * size / (size * size / 2 * spin);
+  EXPECT_OK(set_velocity(lab.world, wheel, reals(0, 0, -precession * size), reals(spin, precession, 0)));
+  add_joint(lab, JointType::ball, post, wheel, 0, 0, 0);
+  lab.run(120);
+  return -lab.motion(wheel).position[1] / size;
+}
+
+DETENT_TEST(joint, a_gyroscope_does_not_sink) {
+  EXPECT_NEAR(sunk_gyroscope(0.05, 200), 0, 0.02);
+  EXPECT_NEAR(sunk_gyroscope(1, 60), 0, 0.002);
+}
+
+DETENT_TEST(joint, a_box_with_a_flywheel_keeps_its_angular_momentum) {
+  Lab lab(room(2, 1), weightless());
+  const BodyId frame = add_shape(lab, box(reals(0.3, 0.2, 0.25)), 0, 0, 0);
+  BodyDef def;
+  def.shape = cylinder(real(0.2), real(0.05));
+  def.rotation = {0.0, 0.0, -0.70710678118654752, 0.70710678118654752};  // y to x
+  def.position = position(0.4, 0, 0);
+  const BodyId wheel = lab.add(def);
+  ASSERT_OK(set_velocity(lab.world, frame, reals(0, 0, 0), reals(0, 2, 0)));
+  ASSERT_OK(set_velocity(lab.world, wheel, reals(0, 0, -0.8), reals(50, 2, 0)));
+  add_joint(lab, JointType::hinge, frame, wheel, 0.4, 0, 0);
+  const Vector before = angular_momentum(lab, {frame, wheel});
+  lab.run(60);
+  EXPECT_LE(length(angular_momentum(lab, {frame, wheel}) - before), 0.004 * length(before));
 }
 
 /// A ball joint and a wheel joint both constrain one motion: their rows may act against each other with any force.

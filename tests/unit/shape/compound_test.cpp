@@ -55,6 +55,21 @@ DETENT_TEST(compound, is_read_as_it_was_cooked) {
   EXPECT_NEAR(ldexp(info.volume_mantissa, info.volume_exponent), volume, 1e-7 * volume);
 }
 
+/// The unit of the coordinates holds the radius of a ball whose centre is the origin.
+DETENT_TEST(compound, of_balls_about_one_centre_is_read_as_it_was_cooked) {
+  for (const double radius : {0.25, 0.3, 1.0, 1000.0}) {
+    for (const Parts& parts :
+         {Parts{detent_compounds::ball(0, 0, 0, radius)},
+          Parts{detent_compounds::ball(0, 0, 0, radius / 2), detent_compounds::ball(0, 0, 0, radius)}}) {
+      const Bytes bytes = cooked(parts);
+      CompoundInfo info;
+      ASSERT_OK(compound_info(asset_of(bytes), info)) << radius;
+      const double volume = 4 * M_PI / 3 * pow(radius, 3) * (parts.size() == 2 ? 1.125 : 1);
+      EXPECT_NEAR(ldexp(info.volume_mantissa, info.volume_exponent) / volume, 1, 1e-7) << radius;
+    }
+  }
+}
+
 /// The mass properties of the L: two boxes by the parallel axis theorem, rotated in the plane by the angle at which the
 /// product of inertia vanishes.
 DETENT_TEST(compound, mass_is_that_of_its_parts) {

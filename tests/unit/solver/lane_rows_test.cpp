@@ -117,9 +117,9 @@ struct Rows : Samples {
       for (Unit& unused : work.coupling[i]) unused = part();
     }
     for (Unit& response : work.response) response = fine(part());
-    for (Unit& mass : work.friction_mass) mass = fine(positive(part()));
-    for (Scaled* const factor : {&work.friction, &work.twist_arm, &work.rolling_arm, work.angular_mass,
-                                 work.angular_mass + 1, work.angular_mass + 2})
+    work.friction_mass = fine(positive(part()));
+    for (Scaled* const factor :
+         {&work.friction, &work.twist_arm, &work.rolling_arm, &work.twist_mass, &work.rolling_mass})
       *factor = fine(scaled(-30, DETENT_FIXED ? 60 : 31));
     for (Real& accumulated : work.friction_impulse) accumulated = impulse();
     for (uint32_t i = 0; i < 3; ++i) work.angular_impulse[i] = i < angular_rows ? impulse() : k_zero;

@@ -218,7 +218,7 @@ struct Scene {
                  work[a].fall},
                 {properties[b], poses[b], motions[b], work[b].inverse_inertia, work[b].angular_velocity, work[b].extent,
                  work[b].fall},
-                geometry, contact);
+                geometry, k_zero, contact);
       contacts.push_back(contact);
     }
     order.resize(contacts.size());
