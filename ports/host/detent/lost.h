@@ -28,5 +28,14 @@ inline uint64_t count_lost(const StepReport& report) {
   return sum;
 }
 
+/// The name of the greatest counter.
+inline const char* greatest_loss(const StepReport& report) {
+  const LostCounter* greatest = k_lost_counters;
+  for (const LostCounter& counter : k_lost_counters) {
+    if (counter.count(report) > greatest->count(report)) greatest = &counter;
+  }
+  return greatest->name;
+}
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

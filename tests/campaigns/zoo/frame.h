@@ -70,6 +70,8 @@ struct StepFigures {
   uint32_t substeps = 0;  ///< greatest of any island
   uint32_t awake = 0;
   double seconds = 0;
+  uint32_t islands = 0;
+  const char* lost_most = "";  ///< the greatest of the counts in `lost`
 };
 
 /// A scene that runs in one configuration.

@@ -29,8 +29,10 @@ class DetentPlay : public detent_zoo::Play {
     figures.seconds = stopwatch.seconds();
     ++tick_;
     figures.lost = count_lost(report);
+    figures.lost_most = greatest_loss(report);
     figures.substeps = report.substeps_max;
     figures.awake = report.awake;
+    figures.islands = report.islands;
     return figures;
   }
 

@@ -50,15 +50,17 @@ std::string line_of(const Row& row) {
   const std::string name = row.entry->scene + " " + row.config + ": ";
   if (!verdict.problem.empty()) return name + verdict.problem;
   const Figures& f = verdict.figures;
-  std::string text = name + "gain " + figure(f.gain.value) + " (tick " + std::to_string(f.gain.tick) + "), loss " +
-                     figure(f.loss.value) + ", gap " + figure(f.gap.value) + " " + figure(f.gap_metres.value) + " m (" +
-                     verdict.gap_joint + ", tick " + std::to_string(f.gap.tick) + "), angle " + figure(f.angle.value) +
-                     ", limit " + figure(f.limit.value) + " (" + std::to_string(f.limit.tick) + " " +
-                     std::to_string(f.limit.index) + "), sunk " + figure(f.sunk.value) + " (" + verdict.sunk_body +
-                     ", tick " + std::to_string(f.sunk.tick) + "), pierced " + figure(f.pierced.value) + " (tick " +
-                     std::to_string(f.pierced.tick) + "), moved " + figure(f.moved.value) + " (" + verdict.moved_body +
-                     ", tick " + std::to_string(f.moved.tick) + "), fallen " + figure(f.fallen.value) + ", risen " +
-                     figure(f.risen.value) + ", lost " + figure(f.lost.value) + ", speed " + figure(f.speed.value);
+  std::string text =
+      name + "gain " + figure(f.gain.value) + " (tick " + std::to_string(f.gain.tick) + "), loss " +
+      figure(f.loss.value) + ", gap " + figure(f.gap.value) + " " + figure(f.gap_metres.value) + " m (" +
+      verdict.gap_joint + ", tick " + std::to_string(f.gap.tick) + "), angle " + figure(f.angle.value) + ", limit " +
+      figure(f.limit.value) + " (" + std::to_string(f.limit.tick) + " " + std::to_string(f.limit.index) + "), sunk " +
+      figure(f.sunk.value) + " (" + verdict.sunk_body + ", tick " + std::to_string(f.sunk.tick) + "), pierced " +
+      figure(f.pierced.value) + " (tick " + std::to_string(f.pierced.tick) + "), moved " + figure(f.moved.value) +
+      " (" + verdict.moved_body + ", tick " + std::to_string(f.moved.tick) + "), fallen " + figure(f.fallen.value) +
+      ", risen " + figure(f.risen.value) + ", lost " + figure(f.lost.value) +
+      (f.lost.value == 0 ? "" : " (" + std::string(f.lost_most) + ", tick " + std::to_string(f.lost.tick) + ")") +
+      ", speed " + figure(f.speed.value);
   if (row.entry->bounds.count("momentum") != 0)
     text += ", momentum " + figure(f.momentum.value) + ", angular momentum " + figure(f.angular_momentum.value);
   text += ", end " + figure(f.rest_speed) + " m/s " + figure(f.rest_angular_velocity) + " rad/s, asleep " + asleep(f) +

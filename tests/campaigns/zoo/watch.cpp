@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 namespace detent_zoo {
 
@@ -10,10 +11,25 @@ namespace {
 constexpr double k_gravity_least = 9.81;  // m/s^2, for the work of kinematic bodies
 constexpr double k_weights_pushed = 10;
 
-double energy_of(const Frame& frame) {
+/// `lag`: the time by which the velocities of bodies with joints are older than their positions, s.
+double energy_of(const Frame& frame, double lag = 0) {
   double energy = 0;
   for (const BodyFrame& body : frame.bodies) energy += kinetic_energy(body) + potential_energy(body, frame.gravity);
+  if (lag == 0) return energy;
+  std::set<uint32_t> jointed;
+  for (const JointFrame& joint : frame.joints) jointed.insert({joint.a, joint.b});
+  for (const uint32_t index : jointed) {
+    BodyFrame then = frame.bodies[index];
+    then.position = then.position - lag * then.linear_velocity;
+    energy += potential_energy(then, frame.gravity) - potential_energy(frame.bodies[index], frame.gravity);
+  }
   return energy;
+}
+
+/// The velocity of a body with joints is that in the middle of the last substep. The number of substeps is known if
+/// there is one island.
+double lag_of(const Frame& frame, const StepFigures& step) {
+  return step.islands == 1 && step.substeps != 0 ? frame.tick_time / (2.0 * step.substeps) : 0;
 }
 
 double kinetic_of(const Frame& frame) {
@@ -177,8 +193,8 @@ double Watch::work(const Frame& now) const {
   return work;
 }
 
-void Watch::take_energy(const Frame& now) {
-  energy_ = energy_of(now);
+void Watch::take_energy(const Frame& now, double lag) {
+  energy_ = energy_of(now, lag);
   allowed_ += work(now);
   const double own = energy_ - allowed_;
   if (scale_ > 0) figures_.gain.take(finite((own - least_) / scale_), tick_);
@@ -261,12 +277,13 @@ void Watch::take_places(const Frame& now) {
 
 void Watch::tick(const Frame& now, const StepFigures& step) {
   ++tick_;
-  take_energy(now);
+  take_energy(now, lag_of(now, step));
   if (tick_ > k_settled_tick) take_joints(now);
   take_contacts(now);
   take_places(now);
   take_speeds(now);
   take_momentum(now);
+  if (static_cast<double>(step.lost) > figures_.lost.value) figures_.lost_most = step.lost_most;
   figures_.lost.take(static_cast<double>(step.lost), tick_);
   if (step.awake != 0) figures_.asleep_from = 0;
   if (step.awake == 0 && figures_.asleep_from == 0) figures_.asleep_from = tick_;

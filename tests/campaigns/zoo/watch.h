@@ -28,10 +28,11 @@ struct Figures {
   Worst loss;
   Worst gap;  ///< of joints, relative to the smaller body's size
   Worst gap_metres;
-  Worst angle;  ///< of joints, rad
-  Worst limit;  ///< greatest excess of a joint beyond a limit, rad or m
-  Worst lost;   ///< in one tick
-  Worst speed;  ///< over the speed that the scene's heights, first speeds and motors explain
+  Worst angle;                 ///< of joints, rad
+  Worst limit;                 ///< greatest excess of a joint beyond a limit, rad or m
+  Worst lost;                  ///< in one tick
+  const char* lost_most = "";  ///< the greatest of the counts in `lost`
+  Worst speed;                 ///< over the speed that the scene's heights, first speeds and motors explain
   /// Change without calls, relative to the sum of the bodies' momenta at the start or after calls.
   Worst momentum;
   Worst angular_momentum;  ///< of angular momentum, as `momentum`
@@ -68,7 +69,7 @@ class Watch {
   Figures finish();
 
  private:
-  void take_energy(const Frame& now);
+  void take_energy(const Frame& now, double lag);
   void take_joints(const Frame& now);
   void take_speeds(const Frame& now);
   void take_momentum(const Frame& now);

@@ -56,6 +56,20 @@ TEST(zoo_watch, energy_that_comes_from_nowhere_is_a_gain) {
   EXPECT_EQ(figures.gain.tick, 2u);
 }
 
+TEST(zoo_watch, velocities_of_jointed_bodies_belong_to_the_middle_of_the_last_substep) {
+  Frame frame = pair(Held::ball, {0, -3, 0});
+  frame.gravity = {0, -10, 0};
+  frame.bodies[1].position = {1, 5, 0};
+  Watch watch(frame);
+  // In free fall from the middle of the last of two substeps, a quarter of a tick before the frame.
+  frame.bodies[1].position.y -= 3 * k_tick / 4;
+  watch.tick(frame, {0, 2, 1, 0, 1});
+  EXPECT_NEAR(watch.finish().gain.value, 0, 1e-12);
+  EXPECT_NEAR(watch.finish().loss.value, 0, 1e-12);
+  watch.tick(frame, {0, 2, 1, 0, 2});
+  EXPECT_GT(watch.finish().loss.value, 1e-3) << "of two islands the number of substeps is not known";
+}
+
 TEST(zoo_watch, energy_that_goes_is_a_loss_since_the_start_and_a_call_is_none) {
   Frame frame = pair(Held::ball, {0, 2, 0});
   Watch watch(frame);
