@@ -87,7 +87,7 @@ struct ContactPoint {
 };
 
 /// A contact of two bodies. A pair of convex bodies has one contact. A pair with a compound or a terrain (a mesh or
-/// height field) has up to eight: points in one plane form one contact. The state stores only the impulses of the last
+/// height field) has up to 16: points in one plane form one contact. The state stores only the impulses of the last
 /// substep. The impulses and forces of this struct are the stored ones, scaled to the whole tick. They show the resting
 /// load. They do not show impacts, which events report (event.h). The contacts of sleeping bodies keep their impulses.
 struct Contact {

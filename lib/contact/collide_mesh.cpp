@@ -50,12 +50,11 @@ void collide_mesh(const Terrain& terrain, const CollisionBody& ground, const Col
                  }
                  found.add(touch);
                });
-  TerrainManifold manifold[k_terrain_manifolds_max];
-  contacts.count = found.finish(manifold);
+  contacts.count = found.finish();
   contacts.dropped = found.dropped();
   contacts.capped = found.capped();
   for (uint32_t i = 0; i < contacts.count; ++i)
-    put_contact(manifold[i], place.terrain, ground, body, contacts.contact[i]);
+    put_contact(found.manifold(i), place.terrain, ground, body, contacts.contact[i]);
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -115,12 +115,11 @@ class PartContacts {
 
   void finish(TerrainContacts& contacts) {
     constexpr Matrix32 k_world = {{{k_one, 0, 0}, {0, k_one, 0}, {0, 0, k_one}}};
-    TerrainManifold manifold[k_terrain_manifolds_max];
-    contacts.count = found_.finish(manifold);
+    contacts.count = found_.finish();
     contacts.dropped += found_.dropped();
     contacts.capped = contacts.capped || found_.capped();
     for (uint32_t i = 0; i < contacts.count; ++i)
-      put_contact(manifold[i], k_world, ground_, body_, contacts.contact[i]);
+      put_contact(found_.manifold(i), k_world, ground_, body_, contacts.contact[i]);
     for (uint32_t i = 0; swapped_ && i < contacts.count; ++i) swap_bodies(contacts.contact[i].geometry);
   }
 

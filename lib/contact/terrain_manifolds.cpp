@@ -10,9 +10,13 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int64_t k_same_cosine = (int64_t{1} << 60) - (int64_t{1} << 49);     // 2^-5 rad
-constexpr int64_t k_similar_cosine = (int64_t{1} << 60) - (int64_t{1} << 55);  // 2^-2 rad
 constexpr int k_plane_power = 4;  ///< planes at most 2^-4 of the half thickness apart count as one plane
 constexpr uint32_t k_edge_key = 0x80000000u;
+
+/// Whether a group with these values is kept rather than another one: doubtful groups go first, then the shallowest.
+bool comes_before(bool doubtful, int64_t deepest, bool other_doubtful, int64_t other_deepest) {
+  return doubtful != other_doubtful ? other_doubtful : deepest < other_deepest;
+}
 
 int64_t along(const Vec64& v, const Vec32& direction) { return dot(v, direction).round_shift(30); }
 
@@ -27,22 +31,17 @@ uint32_t normal_name(const Vec32& normal) {
 
 TerrainManifolds::Group* TerrainManifolds::group_for(const TerrainTouch& touch, int64_t plane) {
   const Vec32& normal = touch.manifold.normal;
-  Group* similar = nullptr;
-  int64_t most = k_similar_cosine;
   for (uint32_t i = 0; i < count_; ++i) {
     Group& group = group_[i];
     const int64_t cosine = dot(group.normal, normal), apart = plane - group.plane;
     if (cosine >= k_same_cosine && (apart < 0 ? -apart : apart) <= size_ >> k_plane_power) return &group;
-    if (cosine <= most) continue;
-    most = cosine;
-    similar = &group;
   }
-  if (count_ == k_groups_max && similar != nullptr) return similar;
   Group* fresh = &group_[count_];
-  if (count_ == k_groups_max) {
+  if (count_ == k_terrain_manifolds_max) {
     fresh = &group_[0];
-    for (Group& group : group_) fresh = group.deepest > fresh->deepest ? &group : fresh;
-    if (fresh->deepest <= touch.deepest) {
+    for (Group& group : group_)
+      fresh = comes_before(fresh->doubtful, fresh->deepest, group.doubtful, group.deepest) ? &group : fresh;
+    if (!comes_before(touch.doubtful, touch.deepest, fresh->doubtful, fresh->deepest)) {
       ++dropped_;
       return nullptr;
     }
@@ -91,11 +90,10 @@ void TerrainManifolds::join(const TerrainTouch& touch, int64_t plane, Group& gro
   }
 }
 
-void TerrainManifolds::add_point(const TerrainManifold::Point& contact, Group& group) const {
-  const Point point = {contact, along(contact.from_shape, group.u), along(contact.from_shape, group.v)};
+void TerrainManifolds::add_point(const TerrainManifold::Point& point, Group& group) const {
   for (uint32_t i = 0; i < group.count; ++i) {
-    if (group.point[i].contact.feature != contact.feature) continue;
-    if (contact.separation < group.point[i].contact.separation) group.point[i] = point;
+    if (group.point[i].feature != point.feature) continue;
+    if (point.separation < group.point[i].separation) group.point[i] = point;
     return;
   }
   if (group.count == k_points_max) {
@@ -109,7 +107,7 @@ void TerrainManifolds::add_point(const TerrainManifold::Point& contact, Group& g
 uint32_t TerrainManifolds::deepest_of(const Group& group) {
   uint32_t deepest = 0;
   for (uint32_t i = 1; i < group.count; ++i) {
-    deepest = group.point[i].contact.separation < group.point[deepest].contact.separation ? i : deepest;
+    deepest = group.point[i].separation < group.point[deepest].separation ? i : deepest;
   }
   return deepest;
 }
@@ -117,17 +115,19 @@ uint32_t TerrainManifolds::deepest_of(const Group& group) {
 /// Returns the points that AreaChoice chooses: bit i stands for point i. If `fill` is false, only the extremes are
 /// chosen.
 uint32_t TerrainManifolds::chosen_of(const Group& group, int64_t level, int64_t drop, bool fill) {
-  const Point& first = group.point[0];
+  int64_t u[k_points_max], v[k_points_max];  // coordinates in the plane, from the first point, 2^-46 m
   uint64_t spread = 0;
-  for (uint32_t i = 1; i < group.count; ++i) {
-    spread |= magnitude_64(group.point[i].u - first.u) | magnitude_64(group.point[i].v - first.v);
+  for (uint32_t i = 0; i < group.count; ++i) {
+    u[i] = along(group.point[i].from_shape, group.u) - (i == 0 ? 0 : u[0]);
+    v[i] = along(group.point[i].from_shape, group.v) - (i == 0 ? 0 : v[0]);
+    spread |= i == 0 ? 0 : magnitude_64(u[i]) | magnitude_64(v[i]);
   }
+  u[0] = v[0] = 0;
   const int bits = bit_length_64(spread), shift = bits > 28 ? bits - 28 : 0;  // so that areas of triangles fit 64 bits
   AreaChoice choice(level, INT64_MAX, drop, ManifoldReduction::projected_extremes);
   do {
     for (uint32_t i = 0; i < group.count; ++i) {
-      const Point& p = group.point[i];
-      choice.add({(p.u - first.u) >> shift, (p.v - first.v) >> shift, p.contact.separation, AreaPoint::Kind::vertex,
+      choice.add({u[i] >> shift, v[i] >> shift, group.point[i].separation, AreaPoint::Kind::vertex,
                   static_cast<uint8_t>(i), 0});
     }
   } while (choice.again() && fill);
@@ -143,7 +143,7 @@ uint32_t TerrainManifolds::spare_point(const Group& group) const {
   uint32_t spare = k_points_max;
   int64_t higher = INT64_MIN;
   for (uint32_t i = 0; i < group.count; ++i) {
-    const int64_t separation = group.point[i].contact.separation;
+    const int64_t separation = group.point[i].separation;
     if ((needed >> i & 1) != 0 || separation <= higher) continue;
     spare = i;
     higher = separation + (size_ >> k_drop_power);
@@ -151,21 +151,25 @@ uint32_t TerrainManifolds::spare_point(const Group& group) const {
   return spare;
 }
 
-/// Chooses up to four of the points. Points about as deep as the deepest are preferred.
-void TerrainManifolds::choose(const Group& group, TerrainManifold& manifold) const {
+/// Chooses up to four of the group's points. Points about as deep as the deepest are preferred.
+TerrainManifold TerrainManifolds::manifold(uint32_t place) const {
+  const Group& group = group_[place];
+  TerrainManifold manifold;
   uint32_t chosen = ~0u;
   if (group.count > k_contact_points_max) {
-    const int64_t deepest = group.point[deepest_of(group)].contact.separation;
+    const int64_t deepest = group.point[deepest_of(group)].separation;
     chosen = chosen_of(group, deepest + (size_ >> k_plane_power), size_ >> k_drop_power, true);
   }
   manifold.count = 0;
   for (uint32_t i = 0; i < group.count; ++i) {
-    if ((chosen >> i & 1) != 0) manifold.point[manifold.count++] = group.point[i].contact;
+    if ((chosen >> i & 1) != 0) manifold.point[manifold.count++] = group.point[i];
   }
+  manifold.key = group.key;
   manifold.normal = group.normal;
   manifold.triangle = group.triangle;
   manifold.material = group.material;
   manifold.turns = group.turns;
+  return manifold;
 }
 
 /// Removes the doubtful groups (TerrainTouch::doubtful), unless all groups are doubtful. A doubtful contact is very
@@ -183,35 +187,23 @@ void TerrainManifolds::leave_out_doubtful() {
   count_ = kept;
 }
 
-uint32_t TerrainManifolds::finish(TerrainManifold (&manifold)[k_terrain_manifolds_max]) {
+uint32_t TerrainManifolds::finish() {
   leave_out_doubtful();
-  while (count_ > k_terrain_manifolds_max) {
-    uint32_t shallowest = 0;
-    for (uint32_t i = 1; i < count_; ++i) {
-      shallowest = group_[i].deepest >= group_[shallowest].deepest ? i : shallowest;
-    }
-    dropped_ += group_[shallowest].touches;
-    for (uint32_t i = shallowest; i + 1 < count_; ++i) group_[i] = group_[i + 1];
-    --count_;
+  for (uint32_t i = 0; i < count_; ++i) {
+    group_[i].key = group_[i].on_face ? normal_name(group_[i].normal) : k_edge_key | group_[i].first;
   }
   // Sorts by key. Planes of the same name are sorted by their height.
-  const auto key_of = [](const Group& group) {
-    return group.on_face ? normal_name(group.normal) : k_edge_key | group.first;
-  };
   for (uint32_t i = 1; i < count_; ++i) {
     for (uint32_t k = i; k > 0; --k) {
       Group &low = group_[k - 1], &high = group_[k];
-      const uint32_t low_key = key_of(low), high_key = key_of(high);
-      if (low_key < high_key || (low_key == high_key && low.plane <= high.plane)) break;
+      if (low.key < high.key || (low.key == high.key && low.plane <= high.plane)) break;
       const Group swapped = low;
       low = high;
       high = swapped;
     }
   }
-  for (uint32_t i = 0; i < count_; ++i) {
-    choose(group_[i], manifold[i]);
-    manifold[i].key = key_of(group_[i]);
-    if (i > 0 && manifold[i].key <= manifold[i - 1].key) manifold[i].key = manifold[i - 1].key + 1;
+  for (uint32_t i = 1; i < count_; ++i) {
+    if (group_[i].key <= group_[i - 1].key) group_[i].key = group_[i - 1].key + 1;
   }
   return count_;
 }

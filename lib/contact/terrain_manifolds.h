@@ -5,7 +5,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-inline constexpr uint32_t k_terrain_manifolds_max = 8;
+inline constexpr uint32_t k_terrain_manifolds_max = 16;
 
 /// One planar contact of a shape with terrain (a mesh or height field), in the terrain's axes.
 struct TerrainManifold {
@@ -31,46 +31,43 @@ class TerrainManifolds {
   /// `size`: the shape's half thickness, 2^-46 m.
   explicit TerrainManifolds(int64_t size) : size_(size) {}
   void add(const TerrainTouch& touch);
-  /// Writes the manifolds in ascending order of key and returns their count. If there are too many, the deepest are
-  /// kept.
-  uint32_t finish(TerrainManifold (&manifold)[k_terrain_manifolds_max]);
+  /// Forms the manifolds, in ascending order of key, and returns their count.
+  uint32_t finish();
+  /// One of them, after finish().
+  TerrainManifold manifold(uint32_t i) const;
   /// Number of touches dropped so far for lack of room.
   uint32_t dropped() const { return dropped_; }
   bool capped() const { return capped_; }
 
  private:
-  static constexpr uint32_t k_groups_max = 12;
   static constexpr uint32_t k_points_max = 8;
-  struct Point {
-    TerrainManifold::Point contact;
-    int64_t u, v;  ///< coordinates in the group's plane, 2^-46 m
-  };
   struct Group {
-    Vec32 normal, u, v;
+    Vec32 normal;
+    Vec32 u, v;     ///< axes of the plane
     int64_t plane;  ///< height of the plane along the normal, from the shape's centre, 2^-46 m
     int64_t deepest;
     uint32_t triangle, first;  ///< the triangle touched deepest; the lowest index of all touched triangles
     uint32_t touches;
+    uint32_t key;  ///< as TerrainManifold::key; set by finish()
     uint8_t material;
     bool on_face, doubtful, turns;
     uint32_t count;
-    Point point[k_points_max];
+    TerrainManifold::Point point[k_points_max];
   };
 
   Group* group_for(const TerrainTouch& touch, int64_t plane);
   void join(const TerrainTouch& touch, int64_t plane, Group& group);
-  void add_point(const TerrainManifold::Point& contact, Group& group) const;
+  void add_point(const TerrainManifold::Point& point, Group& group) const;
   static uint32_t deepest_of(const Group& group);
   static uint32_t chosen_of(const Group& group, int64_t level, int64_t drop, bool fill);
   uint32_t spare_point(const Group& group) const;
-  void choose(const Group& group, TerrainManifold& manifold) const;
   void leave_out_doubtful();
 
   int64_t size_;
   uint32_t count_ = 0;
   uint32_t dropped_ = 0;
   bool capped_ = false;
-  Group group_[k_groups_max];
+  Group group_[k_terrain_manifolds_max];
 };
 
 /// One planar contact of two bodies, one of which is a mesh, a height field or a compound.

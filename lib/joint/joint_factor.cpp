@@ -151,9 +151,16 @@ void choose_unit([[maybe_unused]] const JointStage& stage, JointWork& work) {
     if (((motions >> i) & 1) != 0) work.row[work.rows++] = work.free_row[i];
   }
   Real response[k_joint_rows_max] = {k_zero, k_zero, k_zero, k_zero, k_zero, k_zero};
+  const bool is_rod = static_cast<JointType>(stage.joints[work.joint].type) == JointType::distance;
   for (uint32_t end = 0; end < 2; ++end) {
     const JointBody& body = stage.bodies[work.body[end]];
     if (body.mobile == 0) continue;
+    if (is_rod) {
+      // A rod's direction may rotate in the tick, and its response with it up to this bound.
+      const Real trace = body.turned[0].x + body.turned[1].y + body.turned[2].z;
+      response[0] += body.pushed + trace * work.arm_length[end] * work.arm_length[end];
+      continue;
+    }
     const Response reaction(work, body, end);
     for (uint32_t k = 0; k < work.rows; ++k) {
       Real speed[k_joint_rows_max];

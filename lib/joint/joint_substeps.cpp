@@ -67,12 +67,29 @@ Scaled bend_in_tick(const StepSettings& settings, const SolverBodies& bodies, co
              scaled_by_power(scaled_from(absolute_sum(cross(rotation_vector[0], rotation_vector[1]))), k_axes_power));
 }
 
-/// An upper bound of the squared angle by which a rod or rope between two anchors rotates in a tick.
+/// The length over which the relative velocity of a joint's anchors turns into rotation, m: that of a rod or rope, or
+/// the smaller body's unit of length if the joint holds the anchors together; 0 if the anchors may part.
+Scaled swinging_length(const JointState& joint, const JointWork& work) {
+  switch (static_cast<JointType>(joint.type)) {
+    case JointType::distance:
+      return joint.limited[0] != 0 && joint.upper[0] > k_zero ? scaled_from(joint.upper[0]) : Scaled(0.0);
+    case JointType::ball:
+    case JointType::hinge:
+    case JointType::fixed:
+    case JointType::cone_twist:
+      return scaled_by_power(Scaled(1.0), work.exponent);
+    default:
+      return Scaled(0.0);
+  }
+}
+
+/// An upper bound of the squared angle by which a rod or rope between two anchors rotates in a tick. Also, for a joint
+/// that holds its anchors together, of the angle by which its bodies rotate because an impulse has parted the anchors'
+/// velocities.
 Scaled squared_swing(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                      const JointWork& work) {
-  const JointState& joint = stage.joints[work.joint];
-  const bool holds = static_cast<JointType>(joint.type) == JointType::distance && joint.limited[0] != 0;
-  if (!holds || !(joint.upper[0] > Real(0.0))) return Scaled(0.0);
+  const Scaled length = swinging_length(stage.joints[work.joint], work);
+  if (!is_positive(length)) return Scaled(0.0);
   Vec3<Real> apart = k_zero_vector;
   for (int end = 0; end < 2; ++end) {
     const JointBody& body = stage.bodies[work.body[end]];
@@ -87,8 +104,8 @@ Scaled squared_swing(const StepSettings& settings, const SolverBodies& bodies, c
     apart = end == 0 ? apart - linear_velocity : apart + linear_velocity;
   }
   const Scaled displacement = multiply(scaled_from(absolute_sum(apart)), scaled_from(settings.tick_time));
-  const Scaled rotation_vector = divide(displacement, scaled_from(joint.upper[0]));
-  return multiply(rotation_vector, rotation_vector);
+  const Scaled angle = divide(displacement, length);
+  return multiply(angle, angle);
 }
 
 }  // namespace

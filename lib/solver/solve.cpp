@@ -67,7 +67,9 @@ uint32_t integrate_positions(const SolverBodies& bodies, Span<const uint32_t> is
   return clamped;
 }
 
-constexpr uint32_t k_joint_rounds = 4;  ///< rounds per substep that alternate between contacts and joints
+/// Rounds per substep that alternate between contacts and joints: always at most the first number, and at most the second
+/// while a round changes velocities as much as an impact does.
+constexpr uint32_t k_joint_rounds = 4, k_joint_rounds_max = 16;
 
 /// Stores the bodies' current velocities, for has_settled().
 void remember(const SolverBodies& bodies, Span<const uint32_t> island) {
@@ -254,6 +256,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
   Real elapsed = 0.0;
   const Real enough = scale_by_power(settings.gravity_size * settings.time, -static_cast<int>(settings.convergence));
   const Real enough_for_joints = scale_by_power(settings.gravity_size * settings.time, -2);
+  const Real less_than_impact = scale_by_power(settings.gravity_size * settings.time, 2);
   /// Sweeps over the contacts, at most settings.iterations times. Ends when no velocity changes by more than `enough`
   /// in a sweep.
   const auto sweep = [&](const ContactPass& of) {
@@ -297,10 +300,10 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
       JointStage& stage = *joints.stage;
       uint32_t& undecided = count.undecided;
       count.clamped += joints.code->solve(settings, bodies, own, elapsed, stage, undecided);
-      for (uint32_t round = 0; round < k_joint_rounds && order.count != 0; ++round) {
-        sweep_times(round == 0 ? settings.iterations + 1 : 1, k_solve_normals);
+      for (uint32_t round = 1; round <= k_joint_rounds_max && order.count != 0; ++round) {
+        sweep_times(round == 1 ? settings.iterations + 1 : 1, k_solve_normals);
         if (has_settled(bodies, island, enough)) break;
-        const bool last = has_settled(bodies, island, enough_for_joints);
+        const bool last = has_settled(bodies, island, round < k_joint_rounds ? enough_for_joints : less_than_impact);
         count.clamped += joints.code->solve_again(settings, bodies, own, elapsed, enough, stage, undecided);
         if (last) break;
       }

@@ -50,7 +50,7 @@ struct ContactCount {
   uint32_t contacts = 0;
   uint32_t points = 0;
   uint32_t dropped = 0;
-  uint32_t parts_dropped = 0;  ///< contacts beyond eight of one pair; the shallowest of the pair are dropped
+  uint32_t parts_dropped = 0;  ///< contacts beyond 16 of one pair; the shallowest of the pair are dropped
   uint32_t capped = 0;
   uint32_t recycled = 0;
 };

@@ -369,6 +369,37 @@ DETENT_TEST(joint, a_rope_is_slack_until_it_is_taut) {
   EXPECT_NEAR(lab.motion(ball).position[1], -2, 1e-3);
 }
 
+/// A rod from a fixed point to a ball, whose anchor is at the end of a long arm. At the start the rod pulls along the
+/// arm, after a quarter turn across it.
+void spin_on_a_rod(double radius, double arm, double speed) {
+  SCOPED_TRACE(testing::Message() << "radius " << radius << ", arm " << arm << ", speed " << speed);
+  Lab lab(room(2, 1), weightless());
+  const BodyId ground = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 0, 0, 0, BodyType::fixed);
+  const BodyId ball = add_shape(lab, sphere(real(radius)), 2 + arm, 0, 0);
+  JointDef def;
+  def.type = JointType::distance;
+  def.a = ground;
+  def.b = ball;
+  def.anchor_b = reals(-arm, 0, 0);
+  def.axis.limited = true;
+  def.axis.lower = def.axis.upper = real(2);
+  JointId joint;
+  ASSERT_OK(create_joint(lab.world, def, joint));
+  ASSERT_OK(set_velocity(lab.world, ball, reals(0, 0, 0), reals(0, 0, speed)));
+  for (int tick = 0; tick < 60; ++tick) {
+    lab.run(1);
+    ASSERT_NEAR(length(joint_ends(lab.world, joint).gap()), 2, 0.04) << tick;
+  }
+}
+
+DETENT_TEST(joint, a_rod_on_a_long_arm_holds_when_the_arm_turns_across_it) {
+  for (const double radius : {1.0, 0.1, 0.02, 0.005}) {
+    for (const double arm : {0.1, 1.0, 4.0, 16.0}) {
+      for (const double speed : {1.0, 10.0, 40.0}) spin_on_a_rod(radius, arm, speed);
+    }
+  }
+}
+
 DETENT_TEST(joint, a_cone_leans_no_farther_and_twists_no_farther_than_it_may) {
   JointDef rest;
   rest.second.limited = true;

@@ -23,10 +23,12 @@ double bend_of(JointType type, const Vector (&linear_velocity)[2], const Vector 
   const auto size = [](Vector v) { return fabs(v.x) + fabs(v.y) + fabs(v.z); };
   double bend = 8 * size(cross(angular_velocity[0], angular_velocity[1]));
   for (int i = 0; i < 2; ++i) bend += size(cross(angular_velocity[i], cross(angular_velocity[i], anchor[i])));
-  if (type != JointType::distance) return bend;
+  const bool holds_anchors =
+      type == JointType::ball || type == JointType::hinge || type == JointType::fixed || type == JointType::cone_twist;
+  if (type != JointType::distance && !holds_anchors) return bend;
   const Vector apart = (linear_velocity[1] + cross(angular_velocity[1], anchor[1])) -
                        (linear_velocity[0] + cross(angular_velocity[0], anchor[0]));
-  const double swing = size(apart) / length;
+  const double swing = size(apart) / (holds_anchors ? 1 : length);
   return fmax(bend, swing * swing);
 }
 
