@@ -4,12 +4,14 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Sorts ascending by the digit `digit_of(element)`, below 256. Elements with equal digits keep their order. Uses 1 KB
-/// of stack. radix_sort() does not call this function for short spans, so a small world does not need this stack.
+/// Sorts ascending by the digit `digit_of(element)`, below 256. Elements with equal digits keep their order. `items` must
+/// not be empty. Uses 1 KB of stack. radix_sort() does not call this function for short spans, so a small world does not
+/// need this stack.
 template <class T, class DigitOf>
 __attribute__((noinline)) void sort_by_digit(Span<T> items, Span<T> spare, const DigitOf& digit_of) {
   uint32_t place[256] = {};
   for (const T& item : items) ++place[digit_of(item)];
+  if (place[digit_of(items[0])] == items.count) return;  // all digits are equal
   uint32_t next = 0;
   for (uint32_t& count : place) {
     const uint32_t start = next;

@@ -122,13 +122,9 @@ class PairTests {
       const int i = tests[1] == nullptr || (tests[0] != nullptr && tests[0]->time < tests[1]->time) ? 0 : 1;
       const WarpTest& test = *tests[i];
       if (now[1 - i] != nullptr) {
-        make(slots[i], test, slots[1 - i], *now[1 - i], test.time);
-        if (run_.has_failed()) {
-          failed_ = 0;
-          return false;
-        }
+        if (finds_event(slots[i], test, slots[1 - i], *now[1 - i], test.time)) return false;
         for (const auto number : k_impact_numbers) correction.*number += stage_.report.*number;
-        make(slots[i], test, slots[1 - i], start_of(stage_.bodies, slots[1 - i]), test.time);
+        finds_event(slots[i], test, slots[1 - i], start_of(stage_.bodies, slots[1 - i]), test.time);
         for (const auto number : k_impact_numbers) correction.*number -= stage_.report.*number;
       }
       now[i] = &test;
@@ -138,13 +134,15 @@ class PairTests {
   }
 
  private:
-  void make(uint32_t slot, const WarpSweep& sweep, uint32_t other, const WarpSweep& other_sweep, Fraction time) {
+  bool finds_event(uint32_t slot, const WarpSweep& sweep, uint32_t other, const WarpSweep& other_sweep, Fraction time) {
+    failed_ = 0;
     place(0, slot, sweep);
     place(1, other, other_sweep);
     stage_.report = {};
     stage_.work_left = UINT32_MAX;
     stage_.test_if_near(slot, other, time);
     part_.places[slot] = part_.places[other] = 0;
+    return run_.has_failed();
   }
   void place(uint32_t index, uint32_t slot, const WarpSweep& sweep) {
     static_cast<WarpSweep&>(bodies_[index]) = sweep;
@@ -355,6 +353,7 @@ class TimeWarp {
         if (range_a.group == range_b.group || !overlap(range_a.bounds, range_b.bounds)) continue;
         const WarpGroup& group_b = groups_[range_b.group];
         const WarpBody& b = group_b.bodies[range_b.body];
+        if (a.slot == b.slot) continue;  // list_changed() has merged their groups
         if (!may_conflict(a, b) || tests.agree(group_a, a, group_b, b)) continue;
         alone(stage_.settings.team, [&] { merge(range_a.group, range_b.group); });
       }

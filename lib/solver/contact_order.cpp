@@ -48,22 +48,16 @@ uint32_t kind_of(const Island& island) {
   return island.joint_count != 0 ? 255 : 2 * island.substeps + (island.contact_count != 0 ? 1 : 0);
 }
 
-/// Sorts the contacts by island. Keeps the order within an island.
-void sort_by_island(Span<const Island> islands, Span<BodyWork> work, Span<ContactOrder> spare, Span<ContactOrder> order,
-                    uint32_t first) {
-  for (uint32_t i = first; i < order.count; ++i) spare[i] = order[i];
+/// Copies contacts from `from` to `to`, to the places of their islands. Keeps the order within an island.
+void copy_by_island(Span<const Island> islands, Span<BodyWork> work, Span<const ContactOrder> from,
+                    Span<ContactOrder> to, uint32_t first) {
   for (uint32_t i = 0; i < islands.count; ++i) work[i].run = islands[i].first_contact;
-  for (uint32_t i = first; i < order.count; ++i) order[work[spare[i].island].run++] = spare[i];
+  for (uint32_t i = first; i < from.count; ++i) to[work[from[i].island].run++] = from[i];
 }
 
-}  // namespace
-
-uint32_t order_contacts(Span<const BodyProperties> properties, Span<const ContactWork> contacts,
-                        Span<const Island> islands, Span<BodyWork> work, Span<ContactOrder> spare,
-                        Span<ContactOrder> order) {
-  for (uint32_t i = 0; i < contacts.count; ++i) {
-    order[i] = {pair_hash(properties, contacts[i].state), i, 0, 0, island_of(properties, work, contacts[i].state)};
-  }
+/// Orders the contacts of one island. Returns the number of contacts that found no free colour.
+uint32_t order_island(Span<const BodyProperties> properties, Span<const ContactWork> contacts, Span<BodyWork> work,
+                      Span<ContactOrder> spare, Span<ContactOrder> order) {
   radix_sort(
       order, spare, [](const ContactOrder& entry, int digit) { return entry.key >> (8 * digit) & 255; }, 4);
   uint32_t overflows = 0;
@@ -71,12 +65,32 @@ uint32_t order_contacts(Span<const BodyProperties> properties, Span<const Contac
     entry.colour = take_colour(properties, contacts[entry.contact].state, work);
     overflows += entry.colour == k_colour_overflow ? 1 : 0;
   }
-  for (ContactOrder& entry : order) entry.kind = kind_of(contacts[entry.contact]);
   radix_sort(
       order, spare,
       [](const ContactOrder& entry, int digit) { return uint32_t{digit == 0 ? entry.kind : entry.colour}; }, 2);
-  sort_by_island(islands, work, spare, order, 0);
   return overflows;
+}
+
+}  // namespace
+
+uint32_t order_contacts(Team* team, Span<const BodyProperties> properties, Span<const ContactWork> contacts,
+                        Span<const Island> islands, Span<BodyWork> work, Span<ContactOrder> spare,
+                        Span<ContactOrder> order) {
+  share(team, contacts.count, k_contacts_shared, [&](uint32_t first, uint32_t last) {
+    for (uint32_t i = first; i < last; ++i) {
+      const ContactState& state = contacts[i].state;
+      spare[i] = {pair_hash(properties, state), i, 0, kind_of(contacts[i]), island_of(properties, work, state)};
+    }
+  });
+  copy_by_island(islands, work, {spare.data, contacts.count}, order, 0);
+  return share_sum(team, islands, k_islands_shared, [&](Span<const Island> part) {
+    uint32_t overflows = 0;
+    for (const Island& island : part) {
+      const uint32_t first = island.first_contact, count = island.contact_count;
+      overflows += order_island(properties, contacts, work, {spare.data + first, count}, {order.data + first, count});
+    }
+    return overflows;
+  });
 }
 
 bool are_solved_together(const Island& a, const Island& b) {
@@ -87,14 +101,19 @@ void group_islands(Span<const uint32_t> slots, Span<const BodyProperties> proper
                    Span<const BodyActivity> activities, Span<const ContactWork> contacts, Span<Island> islands,
                    Span<BodyWork> work, Span<uint32_t> bodies, Span<ContactOrder> spare, Span<ContactOrder> order) {
   if (islands.count < 2) return;
-  heap_sort(islands, [](const Island& a, const Island& b) {
+  const auto precedes = [](const Island& a, const Island& b) {
     return kind_of(a) < kind_of(b) || (kind_of(a) == kind_of(b) && a.first_body < b.first_body);
-  });
-  for (uint32_t i = 0; i < islands.count; ++i) {
-    for (uint32_t k = 0; k < islands[i].body_count; ++k) work[bodies[islands[i].first_body + k]].island = i;
+  };
+  bool sorted = true;
+  for (uint32_t i = 1; sorted && i < islands.count; ++i) sorted = precedes(islands[i - 1], islands[i]);
+  if (!sorted) {
+    heap_sort(islands, precedes);
+    for (uint32_t i = 0; i < islands.count; ++i) {
+      for (uint32_t k = 0; k < islands[i].body_count; ++k) work[bodies[islands[i].first_body + k]].island = i;
+    }
+    list_island_bodies(slots, properties, activities, work, islands, bodies);
+    for (ContactOrder& entry : order) entry.island = island_of(properties, work, contacts[entry.contact].state);
   }
-  list_island_bodies(slots, properties, activities, work, islands, bodies);
-  for (ContactOrder& entry : order) entry.island = island_of(properties, work, contacts[entry.contact].state);
   radix_sort(
       order, spare,
       [&](const ContactOrder& entry, int digit) {
@@ -103,7 +122,8 @@ void group_islands(Span<const uint32_t> slots, Span<const BodyProperties> proper
       3);
   uint32_t alone = 0;
   for (const Island& island : islands) alone += island.joint_count == 0 ? island.contact_count : 0;
-  sort_by_island(islands, work, spare, order, alone);
+  for (uint32_t i = alone; i < order.count; ++i) spare[i] = order[i];
+  copy_by_island(islands, work, {spare.data, order.count}, order, alone);
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -2,6 +2,7 @@
 #include <detent/detail/scratch.h>
 
 #include "base/span.h"
+#include "base/team.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -19,15 +20,15 @@ inline constexpr int k_rows_shift = 3, k_group_shift = 8;
 inline constexpr uint32_t k_in_group = 1;
 constexpr uint32_t group_size(const ContactOrder& entry) { return uint32_t{entry.kind} >> k_group_shift; }
 
-/// Computes the order in which the solver visits contacts. First the contacts are sorted by the hash of their bodies'
-/// ids; contacts with equal hashes keep their order. In this order, each contact takes the lowest colour that is free
-/// at both of its dynamic bodies. The result is sorted by (island, colour, ContactOrder::kind, hash). Any schedule that
-/// keeps the order of the contacts of each dynamic body gives the same bits. The order by hash, instead of the order of
-/// creation, is necessary for a pyramid to come to rest (docs/design/solver.md, "Order of the solve").
+/// Computes the order in which the solver visits contacts. First the contacts of each island are sorted by the hash of
+/// their bodies' ids; contacts with equal hashes keep their order. In this order, each contact takes the lowest colour
+/// that is free at both of its dynamic bodies. The result is sorted by (island, colour, ContactOrder::kind, hash). Any
+/// schedule that keeps the order of the contacts of each dynamic body gives the same bits. The order by hash, instead of
+/// the order of creation, is necessary for a pyramid to come to rest (docs/design/solver.md, "Order of the solve").
 ///
 /// Input, from find_islands(): the islands of the bodies in `work`, and the ranges of contacts in `islands`. `spare` is
 /// work space as large as `order`. Returns the number of contacts that found no free colour.
-uint32_t order_contacts(Span<const BodyProperties> properties, Span<const ContactWork> contacts,
+uint32_t order_contacts(Team* team, Span<const BodyProperties> properties, Span<const ContactWork> contacts,
                         Span<const Island> islands, Span<BodyWork> work, Span<ContactOrder> spare,
                         Span<ContactOrder> order);
 

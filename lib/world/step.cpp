@@ -253,8 +253,10 @@ void Step::build_islands() {
                                  scratch_.islands, scratch_.island_bodies);
   islands_ = scratch_.islands.first(report_.islands);
   const Span<const uint32_t> slots = scratch_.island_bodies;
-  report_.contacts.colour_overflows =
-      order_contacts(bodies_.properties, contacts_, islands_, bodies_.work, scratch_.contact_sort, contact_order());
+  with_team(contacts_.count, [&](Team* team) {
+    report_.contacts.colour_overflows = order_contacts(team, bodies_.properties, contacts_, islands_, bodies_.work,
+                                                       scratch_.contact_sort, contact_order());
+  });
   with_team(islands_.count, [&](Team* team) {
     share(team, islands_, k_islands_shared, [&](Span<Island> part) {
       estimate_loads(settings_, bodies_.poses, bodies_.properties, slots, part, contact_order(), scratch_.contact_sort,

@@ -59,7 +59,7 @@ struct Graph {
     islands.resize(find_islands({slots.data(), body_count}, all, {activities.data(), body_count}, contact_span, {},
                                 {work.data(), body_count}, {islands.data(), body_count},
                                 {island_bodies.data(), body_count}));
-    overflows = order_contacts(all, contact_span, {islands.data(), static_cast<uint32_t>(islands.size())},
+    overflows = order_contacts(nullptr, all, contact_span, {islands.data(), static_cast<uint32_t>(islands.size())},
                                {work.data(), body_count}, {spare.data(), count}, {order.data(), count});
   }
   bool is_dynamic(uint32_t body) const { return properties[body].type == static_cast<uint32_t>(BodyType::dynamic); }
@@ -231,7 +231,7 @@ struct Scene {
     const Span<ContactWork> contact_span = {contacts.data(), contact_count()};
     const uint32_t count = find_islands({every.data(), used}, all, {activities.data(), used}, contact_span, {},
                                         {work.data(), used}, {islands.data(), used}, {slots.data(), used});
-    EXPECT_EQ(order_contacts(all, contact_span, {islands.data(), count}, {work.data(), used},
+    EXPECT_EQ(order_contacts(nullptr, all, contact_span, {islands.data(), count}, {work.data(), used},
                              {spare.data(), contact_count()}, {order.data(), contact_count()}),
               0u);
     slots.resize(islands[count - 1].first_body + islands[count - 1].body_count);
