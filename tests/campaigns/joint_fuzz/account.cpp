@@ -36,10 +36,12 @@ double slide_rate(const SceneJoint& joint, const State& a, const State& b) {
 
 }  // namespace
 
-double energy_of(const Scene& scene, const std::vector<Inertia>& inertia, const States& states) {
+double energy_of(const Scene& scene, const std::vector<Inertia>& inertia, const States& states, double lag) {
   double sum = 0;
-  for (size_t i = 0; i < states.size(); ++i)
-    sum += kinetic(inertia[i], states[i]) + inertia[i].mass * scene.gravity * states[i].position[1];
+  for (size_t i = 0; i < states.size(); ++i) {
+    const double height = states[i].position[1] - lag * states[i].linear_velocity[1];
+    sum += kinetic(inertia[i], states[i]) + inertia[i].mass * scene.gravity * height;
+  }
   return sum;
 }
 

@@ -19,8 +19,9 @@ struct Inertia {
   Triple moments = {};
 };
 
-/// Kinetic and potential energy, J; potential energy is 0 at y = 0. NaN if a state is not a number.
-double energy_of(const Scene& scene, const std::vector<Inertia>& inertia, const States& states);
+/// Kinetic and potential energy, J; potential energy is 0 at y = 0. NaN if a state is not a number. `lag`: the time by
+/// which the velocities are older than the positions, s.
+double energy_of(const Scene& scene, const std::vector<Inertia>& inertia, const States& states, double lag = 0);
 /// The energy that growth is compared with, J: the kinetic energy at the start, plus a tenth of the total weight times
 /// the scene's extent. Always above 0.
 double scale_of(const Scene& scene, const std::vector<Inertia>& inertia, const States& start);

@@ -28,6 +28,8 @@ TEST(joint_fuzz_account, energy_is_that_of_the_motion_the_turn_and_the_height) {
   // The rotation about the world's y is about the body's x.
   const States states = {{}, {{5, 7, 0}, k_x_to_y, {0, 0, 3}, {0, 4, 0}}};
   EXPECT_NEAR(energy_of(scene, inertia, states), 9 + 8 + 2 * 9.81 * 7, 1e-9);
+  EXPECT_NEAR(energy_of(scene, inertia, {{}, {{5, 7, 0}, k_x_to_y, {0, 3, 0}, {0, 4, 0}}}, 0.5), 9 + 8 + 2 * 9.81 * 5.5,
+              1e-9);
   EXPECT_NEAR(scale_of(scene, inertia, states), 9 + 8 + 0.1 * 2 * 9.81 * 2, 1e-3);
 }
 

@@ -8,7 +8,7 @@ namespace detent_joint_fuzz {
 
 /// Counts of a step, from its report.
 struct Counts {
-  uint32_t substeps_max = 0, saturations = 0, joint_decisions_left = 0, contacts = 0;
+  uint32_t substeps_max = 0, saturations = 0, joint_decisions_left = 0, contacts = 0, islands = 0;
 };
 
 /// A scene in a configuration's world.

@@ -98,7 +98,7 @@ class DetentRun : public detent_joint_fuzz::Run {
 
   Counts step() override {
     const StepReport report = detent::step(world_);
-    return {report.substeps_max, report.saturations, report.joints.undecided, report.contacts.count};
+    return {report.substeps_max, report.saturations, report.joints.undecided, report.contacts.count, report.islands};
   }
 
   void states(States& states) const override {

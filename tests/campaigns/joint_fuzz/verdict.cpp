@@ -41,6 +41,12 @@ void describe(const Scene& scene, Verdict& verdict) {
   }
 }
 
+/// The velocities of bodies with joints are those in the middle of the last substep. The number of substeps is known if
+/// there is one island.
+double lag_of(const Counts& counts) {
+  return counts.islands == 1 && counts.substeps_max != 0 ? k_tick / (2 * counts.substeps_max) : 0;
+}
+
 }  // namespace
 
 bool Verdict::grows() const { return !finite || growth > k_growth_max; }
@@ -59,14 +65,19 @@ Verdict play(const Scene& scene, const Engine& engine, const Settings& settings,
   const std::vector<Inertia> inertia = run->inertia();
   States states;
   run->states(states);
+  const States first = states;
   const double scale = scale_of(scene, inertia, states), start = energy_of(scene, inertia, states);
-  double least = start, given = 0, power = power_max(scene, states);
+  // The energy that grows is the lesser of two: with the heights at the end of the tick it fluctuates in a swing, and
+  // with those at the time of the velocities it jumps when the number of substeps changes in a fall.
+  double starts[2] = {start, start}, least[2] = {start, start};
+  double given = 0, power = power_max(scene, states);
   if (watch) watch({0, start, 0, scale, greatest_gap(scene, states), {}});
   for (uint32_t tick = 1; tick <= stop.ticks; ++tick) {
     const double before = processor_nanoseconds();
     const Counts counts = run->step();
     verdict.nanoseconds += processor_nanoseconds() - before;
     run->states(states);
+    if (tick == 1) starts[1] = least[1] = energy_of(scene, inertia, first, lag_of(counts));
     const double energy = energy_of(scene, inertia, states), power_now = power_max(scene, states);
     given += std::max(power, power_now) * k_tick;
     power = power_now;
@@ -75,9 +86,10 @@ Verdict play(const Scene& scene, const Engine& engine, const Settings& settings,
     verdict.undecided += counts.joint_decisions_left;
     verdict.substeps += counts.substeps_max;
     if (!isfinite(energy)) verdict.finite = false;
-    verdict.growth = fmax(verdict.growth, (energy - given - start) / scale);
-    verdict.rise = fmax(verdict.rise, (energy - given - least) / scale);
-    least = std::min(least, energy - given);
+    const double own[2] = {energy - given, energy_of(scene, inertia, states, lag_of(counts)) - given};
+    verdict.growth = fmax(verdict.growth, fmin(own[0] - starts[0], own[1] - starts[1]) / scale);
+    verdict.rise = fmax(verdict.rise, fmin(own[0] - least[0], own[1] - least[1]) / scale);
+    for (int i = 0; i < 2; ++i) least[i] = fmin(least[i], own[i]);
     if (verdict.grown_at == 0 && verdict.grows()) verdict.grown_at = tick;
     if (tick > k_settling_ticks) {
       verdict.gap.length = fmax(verdict.gap.length, gap.length);
