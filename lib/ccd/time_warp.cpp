@@ -134,6 +134,7 @@ class PairTests {
   }
 
  private:
+  /// Tests two bodies with these sweeps. Returns whether the test finds an event; `stage_.report` has its counts.
   bool finds_event(uint32_t slot, const WarpSweep& sweep, uint32_t other, const WarpSweep& other_sweep, Fraction time) {
     failed_ = 0;
     place(0, slot, sweep);

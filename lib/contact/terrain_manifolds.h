@@ -33,8 +33,8 @@ class TerrainManifolds {
   void add(const TerrainTouch& touch);
   /// Forms the manifolds, in ascending order of key, and returns their count.
   uint32_t finish();
-  /// One of them, after finish().
-  TerrainManifold manifold(uint32_t i) const;
+  /// The manifold at this place of the order, after finish().
+  TerrainManifold manifold(uint32_t place) const;
   /// Number of touches dropped so far for lack of room.
   uint32_t dropped() const { return dropped_; }
   bool capped() const { return capped_; }
