@@ -414,6 +414,24 @@ DETENT_TEST(mesh_contact, what_finds_no_room_is_counted_and_the_deepest_stay) {
   EXPECT_NEAR(deepest_of(contacts), right, 1e-3);
 }
 
+DETENT_TEST(mesh_contact, what_is_certain_finds_room_among_deeper_contacts_that_are_doubtful) {
+  TerrainManifolds found(int64_t{1} << 40);
+  for (uint32_t i = 0; i <= k_terrain_manifolds_max; ++i) {
+    TerrainTouch touch = {};
+    touch.triangle = i;
+    touch.doubtful = i < k_terrain_manifolds_max;
+    touch.deepest = touch.doubtful ? -(int64_t{1} << 36) : 0;
+    const double angle = 0.25 * i;
+    touch.manifold.normal = {static_cast<int32_t>(cos(angle) * (1 << 30)), static_cast<int32_t>(sin(angle) * (1 << 30)),
+                             0};
+    touch.manifold.count = 1;
+    touch.manifold.point[0] = {{0, 0, 0}, {0, 0, 0}, touch.deepest, i + 1};
+    found.add(touch);
+  }
+  ASSERT_EQ(found.finish(), 1u);
+  EXPECT_EQ(found.manifold(0).triangle, k_terrain_manifolds_max);
+}
+
 DETENT_TEST(mesh_contact, sizes_of_any_kind_together_stay_in_range) {
   Samples samples = {31};
   uint32_t met = 0;
