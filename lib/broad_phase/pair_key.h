@@ -1,6 +1,8 @@
 #pragma once
+#include <detent/detail/shared.h>
 #include <detent/detail/state.h>
 
+#include "base/binary_search.h"
 #include "base/span.h"
 
 namespace detent {
@@ -17,16 +19,9 @@ constexpr uint64_t key_of_pair(uint32_t a, uint32_t b) { return a < b ? pair_key
 inline uint64_t key_of(const ContactState& contact) { return pair_key(contact.body_a, contact.body_b); }
 
 /// Whether a sorted list contains the key.
-inline bool has_pair(Span<const uint64_t> keys, uint64_t key) {
-  uint32_t low = 0, high = keys.count;
-  while (low < high) {
-    const uint32_t middle = low + (high - low) / 2;
-    if (keys[middle] < key)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low < keys.count && keys[low] == key;
+DETENT_SHARED inline bool has_pair(Span<const uint64_t> keys, uint64_t key) {
+  const uint32_t at = partition_point(keys.count, [&](uint32_t i) { return keys[i] < key; });
+  return at < keys.count && keys[at] == key;
 }
 
 }  // namespace DETENT_NAMESPACE

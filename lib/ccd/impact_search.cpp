@@ -1,3 +1,4 @@
+#include "base/binary_search.h"
 #include "base/heap.h"
 #include "broad_phase/pair_filter.h"
 #include "ccd/impact_stage.h"
@@ -24,15 +25,8 @@ Span<const ContactWork> pair_contacts(Span<const ContactWork> from, uint64_t key
 
 /// The part of a sorted list that starts at the contacts of a pair.
 Span<const ContactWork> contacts_from(Span<const ContactWork> contacts, uint64_t key) {
-  uint32_t low = 0, high = contacts.count;
-  while (low < high) {
-    const uint32_t middle = low + (high - low) / 2;
-    if (key_of(contacts[middle].state) < key)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return {contacts.data + low, contacts.count - low};
+  const uint32_t at = partition_point(contacts.count, [&](uint32_t i) { return key_of(contacts[i].state) < key; });
+  return {contacts.data + at, contacts.count - at};
 }
 
 /// The contacts of a pair in a sorted list.
@@ -106,12 +100,12 @@ ImpactPair* find_impact(const ImpactStage& stage, uint64_t key) {
 /// A lower bound, m, of the distance that a pair without contact had at the start of the tick. The contact points of a
 /// pair in `known.pairs` were searched up to its speculative distance. The bounds of any other pair were disjoint, and
 /// bounds include the contact margin. The result is 0, because nothing is known, if pairs or contacts were dropped, or
-/// if each of the two bodies rested or may have had a contact that was left out as a sliver.
+/// if each of the two bodies rested, or may be near a body with which it has no contact (k_has_near).
 Real distance_without_contact(const ImpactStage& stage, uint64_t key) {
   const uint32_t low = pair_low(key), high = pair_high(key);
   const BodySweep &a = stage.sweep_of(low), &b = stage.sweep_of(high);
   const auto is_known = [](const BodySweep& sweep) {
-    return (sweep.marks & (k_mark_moved | k_mark_sliver)) == k_mark_moved;
+    return (sweep.marks & (k_mark_moved | k_mark_near)) == k_mark_moved;
   };
   if (!stage.known.complete || (!is_known(a) && !is_known(b))) return k_zero;
   const bool searched = has_pair(stage.known.pairs, key);

@@ -28,8 +28,8 @@ inline constexpr uint32_t k_mark_left_bounds = 4;  ///< the sweep leaves the bou
 inline constexpr uint32_t k_mark_hit = 8;          ///< the body was hit: its angular momentum follows its sweep
 inline constexpr uint32_t k_mark_slept = 16;       ///< the body was asleep when the tick began
 inline constexpr uint32_t k_mark_moved = 32;       ///< the body was active when the tick began: its pairs were searched
-inline constexpr uint32_t k_mark_sliver = BodySweep::k_mark_sliver;
-static_assert(k_mark_moved < k_mark_sliver && k_mark_sliver < k_mark_jointed);
+inline constexpr uint32_t k_mark_near = BodySweep::k_mark_near;
+static_assert(k_mark_moved < k_mark_near && k_mark_near < k_mark_jointed);
 
 #if DETENT_TASKS
 /// The counts of a report that each thread keeps for itself; their sums are the counts of the tick.

@@ -83,6 +83,7 @@ void collide_ordered(const CollisionBody& first, const CollisionBody& second, co
   contact.normal = manifold.normal;
   contact.seam = manifold.seam;
   contact.turns = manifold.turns;
+  contact.near = manifold.near;
   for (uint32_t i = 0; i < manifold.count; ++i) {
     const PairPoint& point = manifold.point[i];
     contact.point[contact.count++] = {
@@ -106,7 +107,7 @@ void swap_bodies(ContactGeometry& contact) {
 void collide(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin, ContactGeometry& contact,
              const AssetTable& assets, ManifoldReduction reduction, const FeatureTable& features) {
   contact.count = 0;
-  contact.seam = contact.turns = false;
+  contact.seam = contact.turns = contact.near = false;
   contact.capped = false;
   if (are_spheres_apart(a, b, margin.distance)) return;
   if (!is_simple(a.properties) || !is_simple(b.properties)) {

@@ -37,6 +37,7 @@ struct ContactGeometry {
   uint32_t count = 0;
   bool seam = false;    ///< the contact lies at a seam: it was removed, or its normal was replaced
   bool turns = false;   ///< the normal belongs to no face: it rotates as a round shape slides past the other shape
+  bool near = false;    ///< no point was found, but parts of the shapes may be within the margin
   bool capped = false;  ///< a search reached its iteration cap, hull bytes are missing, or a position is out of range
   ContactGeometryPoint point[k_manifold_points_max];
 };

@@ -389,6 +389,8 @@ void collide_boxes(const PairFrame& frame, PairManifold& manifold) {
       collide_edges(frame, axis, manifold);
       break;
   }
+  // Axes that separate the boxes by at most the margin do not show whether two vertices are as near.
+  manifold.near = manifold.count == 0;
 }
 
 const PairOps k_box_pair_ops = {collide_boxes};

@@ -69,9 +69,10 @@ int64_t apart_along(const RestingPair& pair, const Vec32& normal, ContactAxis& a
 }  // namespace
 
 __attribute__((noinline)) bool is_sliver(const RestingPair& pair, const ContactAxis& axis, int64_t room) {
-  const int64_t radii = pair.radius_a + pair.radius_b;
-  if (pair.metres(axis.separation) - radii < -room) return false;
-  const int64_t about = pair.block_above(room);
+  const int64_t radii = pair.radius_a + pair.radius_b, gap = pair.metres(axis.separation) - radii;
+  if (gap < -room) return false;
+  // The nearest points are up to the gap farther from the faces than the points at which sliding shapes will touch.
+  const int64_t about = pair.block_above(gap > 0 ? room + gap : room);
   const NearFaces of_a = faces_about(pair.a, axis.point_a, about);
   if (of_a.count == 0) return false;
   NearFaces of_b;

@@ -19,7 +19,7 @@ struct PairPoint {
 struct PairManifold {
   Vec3<Unit> normal;  ///< from A to B
   uint32_t count = 0;
-  bool seam = false, turns = false;  ///< as in ContactGeometry
+  bool seam = false, turns = false, near = false;  ///< as in ContactGeometry
   PairPoint point[k_manifold_points_max];
 
   void add(const PairPoint& candidate) {

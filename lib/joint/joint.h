@@ -17,8 +17,9 @@
 ///
 /// so the speed of the row is J v = axis . (v_B - v_A) + arm_B . w_B - arm_A . w_A, and an impulse x of the row applies
 /// the wrench J^T x. C is the position error of the row (JointRows::error). joint_rows.cpp has the J and C of each
-/// joint. An *assembly* is a set of bodies that joints connect, directly or through other mobile bodies, and these
-/// joints. All rows of an assembly are solved at once, for any graph of joints:
+/// joint, joint_drives.cpp its limits, motors, springs and friction. An *assembly* is a set of bodies that joints
+/// connect, directly or through other mobile bodies, and these joints. All rows of an assembly are solved at once, for
+/// any graph of joints:
 ///
 ///     (K + S) x = target - J v,  K = J M^-1 J^T
 ///
@@ -26,7 +27,8 @@
 /// spring has a larger softness. K + S is factored as a block L D L^T over the graph of the joints, with elimination by
 /// minimum degree (joint_order.cpp, joint_factor.h). Each substep computes the factor anew.
 ///
-/// A substep adds no energy (joint_solve.cpp). Solving the rows projects the velocities, which only removes energy.
+/// A substep adds no energy (joint_solve.cpp). It begins with the impulses of the last substep, scaled down until they
+/// add none. Solving the rows then projects the velocities, which only removes energy.
 /// Then the solver adds velocities that make the joints follow their curved paths. These velocities are scaled so that
 /// they add at most the energy that the projection has removed. Shifts of the bodies correct position errors; they keep
 /// the bodies' velocities and angular momenta, except that a body whose energy a shift would raise is slowed down.
@@ -216,6 +218,10 @@ bool is_angular(JointType type, int motion);
 /// Number of free motions that have their own settings (JointDef::axis, second). Settings beyond this number have no
 /// meaning, except the spring of a ball joint.
 int free_motion_count(JointType type);
+/// Whether the joint is a ball joint with a spring, which acts on all its rotations.
+inline bool has_ball_spring(const JointState& joint) {
+  return static_cast<JointType>(joint.type) == JointType::ball && joint.frequency[0] > k_zero;
+}
 /// Number of free motions that can be driven. This includes rotations that only friction or the spring of a ball joint
 /// can drive.
 int driven_motion_count(const JointState& joint);
@@ -248,10 +254,13 @@ inline bool is_locked(const JointWork& work, uint32_t row) {
 }
 /// Activates each limit that the bodies, at their current velocities, would pass by more than k_passed. A motor or
 /// friction that acts with its greatest force gets a row again if it drives the motion beyond its target speed. It gets
-/// no row again in an island with contacts (`touches`): there contacts and joints are solved in alternation, and a
-/// contact may still load the motor. Returns whether a drive mode changed.
-bool take_up(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, bool touches,
+/// no row again while contacts may still load it in this substep (`loads`), because contacts and joints are solved in
+/// alternation. Returns whether a drive mode changed.
+bool take_up(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, bool loads,
              JointWork& work);
+/// Whether a motor or friction of the joint acts with its greatest force, so that it may drive a motion beyond its
+/// target speed.
+bool may_overdrive(const JointState& joint, const JointWork& work);
 /// Whether the impulse of an active limit pulls, which a limit cannot. If `changes`, deactivates the first such limit.
 bool release_limits(const JointState& joint, bool changes, JointWork& work);
 /// Adds the rows of the driven free motions.
@@ -262,11 +271,19 @@ Vec3<Real> linear_impulse(const JointWork& work);
 /// The magnitude of `impulse`, which is in the unit of the joint's linear rows, divided by the mass of the lighter
 /// body, m/s. Overflow: clamps to k_joint_impulse_max.
 Real pull_of(const JointWork& work, const Vec3<Real>& impulse);
-/// JointWork::pull of the last substep of the last tick, m/s, computed from the stored impulses and scaled to the
-/// current number of substeps.
-Real last_pull(const StepSettings& settings, const JointStage& stage, const JointWork& work);
-/// Stores the impulses of the last of `substeps` substeps, for last_pull(). If their pull exceeds JointWork::pull, they
-/// are scaled down to that pull. Overflow: each impulse is clamped to k_joint_impulse_max.
+/// Replaces an impulse below 2^-40 by 0, so that the squares of impulses do not underflow.
+inline Real zero_if_tiny(Real impulse) { return abs(impulse) < Real(0x1p-40) ? k_zero : impulse; }
+/// The reference mass of a joint's assembly, kg: masses and impulses of the assembly are divided by it.
+Scaled reference_mass(const SolverBodies& bodies, const JointStage& stage, const JointWork& work);
+/// JointWork::pull at the start of a tick, m/s, for the current number of substeps. It follows from the mean force of
+/// the joint in the last tick, but is at least the pull of the stored impulses, and at most twice that pull.
+Real last_pull(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
+               const JointWork& work);
+/// Sets JointWork::kept to the stored impulses, scaled to the current number of substeps. Range: choose_unit() has been
+/// called. Overflow: clamps to Real's range.
+void load_impulses(const StepSettings& settings, const JointStage& stage, JointWork& work);
+/// Stores the impulses with which the first substep of the next tick begins: those of the last of `substeps` substeps,
+/// without the impulses that follow curved paths. Overflow: each impulse is clamped to k_joint_impulse_max.
 void store_impulses(uint32_t substeps, const JointWork& work, JointState& joint);
 /// Sets a body's inertia for this substep. About each axis of the body, the inertia is at least h sum |impulse| |arm|
 /// over the joints of the body, with the length h, s, of the substep. Without this lower bound, strong forces on a

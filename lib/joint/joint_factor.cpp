@@ -5,23 +5,17 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 /// The softness of a row is added to the row's diagonal element. It is 2^k_softness_power times the largest diagonal
-/// element of the joint's rows of the same kind (linear or angular). The pivot of a redundant row is only its softness;
-/// the effect of this row is below the precision of the numbers. The rows of a nearly singular system, for example of a
-/// nearly straight chain, yield by an amount that grows with the softness. Therefore the softness is as small as the
-/// precision permits. Rows of drives use k_soft_power, so they yield before locked rows. After make_softer() all rows
-/// use k_soft_power. Each further call multiplies the softness by 2^k_softer_step.
+/// element of the joint's rows of the same kind (linear or angular). In `f32` it is as small as the precision permits.
+/// The pivot of a redundant row is only its softness; the effect of this row is below the precision of the numbers.
+/// Rows of drives use k_soft_power, so they yield before locked rows. After make_softer() all rows use k_soft_power.
+/// Each further call multiplies the softness by 2^k_softer_step.
 #if defined(DETENT_F32)
-constexpr int k_softness_power = -20, k_soft_power = -17;
-#elif defined(DETENT_F64)
-constexpr int k_softness_power = -27, k_soft_power = -20;
+constexpr int k_softness_power = -20;
 #else
-constexpr int k_softness_power = -25, k_soft_power = -20;
+constexpr int k_softness_power = -22;
 #endif
+constexpr int k_soft_power = -17;
 constexpr int k_softer_step = 4, k_softer_calls = 4;
-/// Lower bound of the softness of locked rows. With a smaller softness, rounding errors would let redundant rows act
-/// against each other.
-constexpr Real k_softness_min = DETENT_FIXED ? Real(0x1p-20) : k_zero;
-
 /// Lower bound of a pivot, so that its reciprocal is in the range of multiply().
 constexpr Real k_pivot_min = 0x1p-29;
 #if DETENT_FIXED
@@ -215,9 +209,8 @@ void JointFactor::make() {
     const auto kind = [&](uint32_t k) { return row_kind(work, k); };
     for (uint32_t k = 0; k < work.rows; ++k) most[kind(k)] = max(most[kind(k)], diagonal(work, k));
     for (uint32_t k = 0; k < work.rows; ++k) {
-      const Real soft = scale_by_power(most[kind(k)], soft_power);
-      const Real hard = max(scale_by_power(most[kind(k)], k_softness_power), min(soft, k_softness_min));
-      work.least[k] = max(softer_calls_ != 0 || !is_locked(work, k) ? soft : hard, k_pivot_min);
+      const int power = softer_calls_ != 0 || !is_locked(work, k) ? soft_power : k_softness_power;
+      work.least[k] = max(scale_by_power(most[kind(k)], power), k_pivot_min);
       diagonal(work, k) += work.least[k] + min(work.spring[k], k_spring_max);
     }
   }

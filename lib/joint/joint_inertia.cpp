@@ -21,12 +21,13 @@ Scaled pulls_on(const JointStage& stage, const JointBody& body) {
   return sum;
 }
 
-/// The impulses of a joint in this substep: those of the rows that always act, then those of the free motions.
+/// The impulses of a joint in this substep: those of the rows that always act (`locked`), then those of the free
+/// motions.
 struct RowImpulses {
   Real of[k_joint_rows_max] = {};
 
-  explicit RowImpulses(const JointWork& work) {
-    for (uint32_t k = 0; k < work.locked_rows; ++k) of[k] = work.total[k];
+  RowImpulses(const JointWork& work, const Real (&locked)[k_joint_rows_max]) {
+    for (uint32_t k = 0; k < work.locked_rows; ++k) of[k] = locked[k];
     for (uint32_t i = 0; i < free_rows(work); ++i) of[work.locked_rows + i] = work.driven_total[i] + work.given[i];
   }
   static uint32_t free_rows(const JointRows& rows) {
@@ -47,27 +48,52 @@ Vec3<Real> linear_sum(const JointRows& rows, const Real (&impulse)[k_joint_rows_
   return sum;
 }
 
+/// The magnitude of an impulse. Tiny components count as 0, so that their squares do not underflow.
+Real magnitude_of(const Vec3<Real>& impulse) {
+  return length({zero_if_tiny(impulse.x), zero_if_tiny(impulse.y), zero_if_tiny(impulse.z)});
+}
+
 }  // namespace
 
-Vec3<Real> linear_impulse(const JointWork& work) { return linear_sum(work, RowImpulses(work).of); }
+Vec3<Real> linear_impulse(const JointWork& work) { return linear_sum(work, RowImpulses(work, work.total).of); }
 
 Real pull_of(const JointWork& work, const Vec3<Real>& impulse) {
   bool saturated = false;
   const Scaled unit = scaled_by_power(work.over_lighter, impulse_power(work, 0));
-  return min(multiply(length(impulse), unit, saturated), k_joint_impulse_max);
+  return min(multiply(magnitude_of(impulse), unit, saturated), k_joint_impulse_max);
 }
 
-Real last_pull(const StepSettings& settings, const JointStage& stage, const JointWork& work) {
+Scaled reference_mass(const SolverBodies& bodies, const JointStage& stage, const JointWork& work) {
+  const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
+  const JointBody& mobile = b.mobile != 0 ? b : a;
+  return multiply(bodies.properties[mobile.slot].mass, mobile.inverse_mass);
+}
+
+Real last_pull(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
+               const JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  const Scaled in_substep = multiply(work.over_lighter, scaled_from(settings.time));
+  const Scaled unit = divide(in_substep, reference_mass(bodies, stage, work));
   bool saturated = false;
-  const Real length_of_sum = length(linear_sum(work, stage.joints[work.joint].impulse));
-  return min(multiply(length_of_sum, scaled_by_power(settings.share, k_kept_power), saturated), k_joint_impulse_max);
+  const auto part = [&](Scaled force) { return to_real(multiply(force, unit), saturated); };
+  const Real mean = magnitude_of({part(joint.force.x), part(joint.force.y), part(joint.force.z)});
+  const Scaled share = scaled_by_power(settings.share, k_kept_power);
+  const Real last = min(multiply(magnitude_of(linear_sum(work, joint.impulse)), share, saturated), k_joint_impulse_max);
+  return clamp(mean, last, scale_by_power(last, 1));
+}
+
+void load_impulses(const StepSettings& settings, const JointStage& stage, JointWork& work) {
+  const Scaled share = divide(scaled_by_power(settings.share, k_kept_power), work.over_lighter);
+  for (uint32_t k = 0; k < work.locked_rows; ++k) {
+    const Scaled unit = scaled_by_power(share, -impulse_power(work, row_kind(work, k)));
+    bool saturated = false;
+    work.kept[k] = multiply(stage.joints[work.joint].impulse[k], unit, saturated);
+  }
 }
 
 void store_impulses(uint32_t substeps, const JointWork& work, JointState& joint) {
-  const RowImpulses impulses(work);
-  const Real now = pull_of(work, linear_sum(work, impulses.of));
-  Scaled share = multiply(scaled_by_power(scaled_from_count(substeps), -k_kept_power), work.over_lighter);
-  if (now > work.pull) share = multiply(share, divide(scaled_from(work.pull), scaled_from(now)));
+  const RowImpulses impulses(work, work.kept);
+  const Scaled share = multiply(scaled_by_power(scaled_from_count(substeps), -k_kept_power), work.over_lighter);
   for (uint32_t k = 0; k < work.locked_rows + RowImpulses::free_rows(work); ++k) {
     const int kind = k < work.locked_rows ? row_kind(work, k) : row_kind(work.free_row[k - work.locked_rows]);
     bool saturated = false;

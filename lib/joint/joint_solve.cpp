@@ -54,9 +54,10 @@ struct Solver {
   JointStage& stage;
   Span<const uint32_t> order;
   JointFactor factor;
-  bool touches;  ///< the island has contacts, which are solved in alternation with the joints
-  Real elapsed;  ///< from the start of the tick to the start of the substep
-  Real enough;   ///< see solve_joints_again()
+  bool touches;          ///< the island has contacts, which are solved in alternation with the joints
+  bool loads = touches;  ///< contacts are solved again in this substep, and may load drives
+  Real elapsed;          ///< from the start of the tick to the start of the substep
+  Real enough;           ///< see solve_joints_again()
   /// x . (K + S) x of the last solution's impulses x, divided by the reference mass. It is a little more than x . K x,
   /// which is twice the energy of the impulses.
   Scaled own_energy = Scaled(0.0);
@@ -102,7 +103,7 @@ struct Solver {
         const BodyWork& now = bodies.work[body.slot];
         Quat rotation = now.rotation;
         body.linear_velocity = body.angular_velocity = k_zero_vector;
-        if (type_of(properties) == BodyType::kinematic) {
+        if (is_kinematic(properties)) {
           Vec3<Real> angular_velocity;
           rotate_freely(properties, now.free_rotation, motion.angular_momentum, time, 0, rotation, angular_velocity);
           body.linear_velocity = motion.linear_velocity;
@@ -170,10 +171,15 @@ struct Solver {
     });
     each_joint([&](JointWork& work) {
       make_joint_rows(stage, work, driven_motions(stage.joints[work.joint]), RowParts::all, work);
-      if (elapsed == k_zero) work.pull = last_pull(settings, stage, work);
+      if (elapsed == k_zero) work.pull = last_pull(settings, bodies, stage, work);
     });
     each_mobile([&](JointBody& body) { load_inertia(settings, bodies, stage, body); });
-    if (elapsed == k_zero) each_joint([&](JointWork& work) { choose_unit(stage, work); });
+    if (elapsed == k_zero) {
+      each_joint([&](JointWork& work) {
+        choose_unit(stage, work);
+        load_impulses(settings, stage, work);
+      });
+    }
   }
 
   /// Reads the bodies' velocities, and chooses the drive modes of the free motions.
@@ -255,11 +261,12 @@ struct Solver {
     return turns;
   }
 
-  /// Makes the factor of the joints' rows, with the current drive modes.
-  void make_factor() {
+  /// Makes the factor of the joints' rows, with the current drive modes. `first`: for the first solve of a substep.
+  void make_factor(bool first) {
     each_joint([&](JointWork& work) { add_driven_rows(settings, bodies, stage, work); });
     factor.make();
     each_mobile([&](JointBody& body) { body.given_push = body.given_twist = k_zero_vector; });
+    if (first) warm_start();
     each_joint([&](JointWork& work) { push(work); });
   }
 
@@ -295,7 +302,7 @@ struct Solver {
       if (wrong && last) ++undecided;
       if (!wrong && decision <= k_takings) wrong = take_up_drives();
       if (!wrong || last) break;
-      make_factor();
+      make_factor(false);
     }
     keep_sound();
     each_mobile([&](JointBody& body) { apply(body); });
@@ -309,7 +316,7 @@ struct Solver {
     each_joint([&](const JointWork& work) {
       for (int i = 0; i < k_free_motions; ++i) {
         const bool limited = is_limited(stage.joints[work.joint], i);
-        if ((limited && !is_at_limit(work.mode[i])) || (!touches && work.mode[i] == DriveMode::constant)) open = true;
+        if ((limited && !is_at_limit(work.mode[i])) || (!loads && work.mode[i] == DriveMode::constant)) open = true;
       }
     });
     if (!open) return false;
@@ -320,7 +327,7 @@ struct Solver {
     });
     bool taken = false;
     each_joint([&](JointWork& work) {
-      if (take_up(settings, bodies, stage, touches, work)) taken = true;
+      if (take_up(settings, bodies, stage, loads, work)) taken = true;
     });
     return taken;
   }
@@ -381,7 +388,11 @@ struct Solver {
   /// If a value was clamped, the impulses do not solve the rows. This function then scales them so that they add no
   /// energy.
   void keep_sound() {
-    if (is_sound()) return;
+    if (!is_sound()) limit_energy();
+  }
+  /// Scales the impulses, and the bodies' velocity changes by them, down to the largest share in [0, 1] that adds no
+  /// energy.
+  void limit_energy() {
     load_motions();
     const Scaled shared = impulses_times_speeds(false);
     each_mobile([&](JointBody& body) {
@@ -389,7 +400,8 @@ struct Solver {
       body.angular_velocity = angular_velocity_from(body, body.twist);
     });
     place_motionless();
-    scale_all(share_within(impulses_times_speeds(false), shared, Scaled(0.0)));
+    const Scaled own = impulses_times_speeds(false), most = negate(scaled_by_power(shared, 1));
+    if (less(most, own)) scale_all(is_positive(most) ? divide(most, own) : Scaled(0.0));
     place_still(elapsed);
   }
 
@@ -408,6 +420,23 @@ struct Solver {
       now.contact_angular_momentum -= motion.angular_momentum - angular_momentum_before;
     }
     body.push = body.twist = body.given_push = body.given_twist = k_zero_vector;
+  }
+
+  /// Applies the impulses that the rows that always act had in the last substep, as far as they add no energy. The
+  /// solve then only changes these impulses. So the rows of a mechanism at rest do not yield by their softness, however
+  /// large its forces are. Impulses beyond their range are not applied. Range: no impulses without a row are pending.
+  void warm_start() {
+    each_joint([&](JointWork& work) {
+      for (uint32_t k = 0; k < work.rows; ++k) work.impulse[k] = k < work.locked_rows ? work.kept[k] : k_zero;
+    });
+    const Real most = greatest_impulse();
+    if (most == k_zero || most > k_solution_max || !gather_joints()) return;
+    limit_energy();
+    each_mobile([&](JointBody& body) { apply(body); });
+    // A sum, so that no impulse is a negative zero, to which solves may add a zero of either sign.
+    each_joint([&](JointWork& work) {
+      for (uint32_t k = 0; k < work.locked_rows; ++k) work.total[k] += work.impulse[k];
+    });
   }
 
   /// Adds the applied impulses to the joint's sums for this substep.
@@ -431,9 +460,16 @@ struct Solver {
     return settled;
   }
 
+  /// Whether any drive may overdrive its motion, and this solve may correct that.
+  bool may_be_overdriven() {
+    if (loads) return false;
+    bool may = false;
+    each_joint([&](const JointWork& work) { may = may || may_overdrive(stage.joints[work.joint], work); });
+    return may;
+  }
   /// Solves the rows once more, if the assembly has not settled: removes the speed that contacts have added.
   void solve_again() {
-    if (has_settled()) return;
+    if (has_settled() && !may_be_overdriven()) return;
     each_mobile([&](JointBody& body) {
       // apply() only clamps the motion after the contacts here, because no joint impulses are pending.
       apply(body);
@@ -445,10 +481,7 @@ struct Solver {
   /// Updates the bodies' angular velocities that contacts read.
   void renew_angular_velocities() {
     each_mobile([&](JointBody& body) {
-      BodyWork& now = bodies.work[body.slot];
-      now.angular_velocity =
-          world_angular_velocity(bodies.properties[body.slot], now.inverse_inertia,
-                                 bodies.motions[body.slot].angular_momentum, -k_angular_velocity_power);
+      renew_angular_velocity(bodies.properties[body.slot], bodies.motions[body.slot], bodies.work[body.slot]);
     });
   }
 
@@ -500,7 +533,10 @@ struct Solver {
     const Scaled opposed = impulses_times_speeds(true);
     scale_all(is_sound() ? share_within(own_energy, shared, opposed) : Scaled(0.0));
     each_mobile([&](JointBody& body) { apply(body); });
-    each_joint([&](JointWork& work) { count_in(work); });
+    each_joint([&](JointWork& work) {
+      for (uint32_t k = 0; k < work.locked_rows; ++k) work.kept[k] = -work.impulse[k];
+      count_in(work);
+    });
   }
 
   /// The product x . J v of the impulses and the rows' speeds at the bodies' current velocities. If `locked`, only over
@@ -654,13 +690,16 @@ struct Solver {
   /// The first solve of a substep.
   void solve_first() {
     start();
-    make_factor();
+    make_factor(true);
     solve();
     if (touches) renew_angular_velocities();
   }
   /// Adds the motion along curved paths, and computes the shifts that close gaps.
   void follow() {
-    each_joint([&](JointWork& work) { work.pull = pull_of(work, linear_impulse(work)); });
+    each_joint([&](JointWork& work) {
+      work.pull = pull_of(work, linear_impulse(work));
+      for (uint32_t k = 0; k < work.locked_rows; ++k) work.kept[k] = k_zero;
+    });
     load_motions();
     if (any_turns()) follow_curves();
     close_gaps();
@@ -669,11 +708,13 @@ struct Solver {
   }
   /// Ends a substep.
   void end() {
+    loads = false;
     if (touches) solve_again();
     each_joint([&](JointWork& work) {
       const Vec3<Real> impulse = linear_impulse(work);
       work.force_sum += impulse;
       add_torques(work);
+      for (uint32_t k = 0; k < work.locked_rows; ++k) work.kept[k] = zero_if_tiny(work.kept[k] + work.total[k]);
       // At most twice the pull at the start of follow(): curved paths give redundant rows contradictory targets, and
       // these rows then pull against each other as hard as their softness permits.
       work.pull = min(pull_of(work, impulse), scale_by_power(work.pull, 1));
@@ -763,7 +804,7 @@ void store_reactions(const StepSettings& settings, const SolverBodies& bodies, J
   for (const JointWork& work : stage.work.first(stage.count)) {
     const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
     const JointBody& mobile = b.mobile != 0 ? b : a;
-    const Scaled unit = multiply(multiply(bodies.properties[mobile.slot].mass, mobile.inverse_mass), rate);
+    const Scaled unit = multiply(reference_mass(bodies, stage, work), rate);
     const auto store = [&](const Vec3<Real>& sum, int power, Vec3<Scaled>& to) {
       const Scaled factor = scaled_by_power(unit, power);
       to = {multiply(scaled_from(sum.x), factor), multiply(scaled_from(sum.y), factor),

@@ -31,7 +31,7 @@ constexpr int k_axes_power = 3;
 constexpr Scaled k_needed_by_bend_max = 1024.0;
 /// Squared substeps per squared radian of a spring's phase in a tick.
 constexpr Scaled k_needed_by_spring = 25.0;
-/// Limit of the squared number of substeps that a spring requests. push_softly() in joint_rows.cpp decides whether a
+/// Limit of the squared number of substeps that a spring requests. push_softly() in joint_drives.cpp decides whether a
 /// spring is solved explicitly or implicitly.
 constexpr Scaled k_needed_by_spring_max = 16.0;
 

@@ -40,7 +40,7 @@ bool is_resting(const StepSettings& settings, const BodyProperties& properties, 
 
 bool is_moving(const BodyProperties& properties, const BodyMotion& motion, const BodyActivity& activity) {
   if (is_dynamic(properties)) return activity.asleep == 0;
-  return type_of(properties) == BodyType::kinematic &&
+  return is_kinematic(properties) &&
          !(motion.linear_velocity == k_zero_vector && motion.angular_momentum == k_zero_vector);
 }
 

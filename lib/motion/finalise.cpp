@@ -71,7 +71,7 @@ uint32_t make_sweeps(Span<const uint32_t> slots, Span<const BodyProperties> prop
     sweeps[slot].displacement = sweep.displacement;
     sweeps[slot].rotation_vector = sweep.rotation_vector;
     if (!is_non_colliding(properties[slot])) sweeps[slot].speed = now.speed;
-    sweeps[slot].marks = (now.colours & k_has_sliver) != 0 ? BodySweep::k_mark_sliver : 0;
+    sweeps[slot].marks = (now.colours & k_has_near) != 0 ? BodySweep::k_mark_near : 0;
     clamped += turns_clamped ? 1 : 0;
   }
   return clamped;

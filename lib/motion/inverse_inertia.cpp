@@ -1,6 +1,7 @@
 #include "motion/inverse_inertia.h"
 
 #include "motion/angular_velocity.h"
+#include "motion/block.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -57,6 +58,11 @@ Vec3<Real> world_angular_velocity(const BodyProperties& properties, const WorldI
   };
   return {part(angular_momentum.x, inverse_inertia.row[0]), part(angular_momentum.y, inverse_inertia.row[1]),
           part(angular_momentum.z, inverse_inertia.row[2])};
+}
+
+void renew_angular_velocity(const BodyProperties& properties, const BodyMotion& motion, BodyWork& work) {
+  work.angular_velocity =
+      world_angular_velocity(properties, work.inverse_inertia, motion.angular_momentum, -k_angular_velocity_power);
 }
 
 }  // namespace DETENT_NAMESPACE

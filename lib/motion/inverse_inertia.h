@@ -23,5 +23,8 @@ inline Vec3<Unit> multiply(const WorldInverseInertia& inverse_inertia, const Vec
 Vec3<Real> world_angular_velocity(const BodyProperties& properties, const WorldInverseInertia& inverse_inertia,
                                   const Vec3<Real>& angular_momentum, int power);
 
+/// Sets BodyWork::angular_velocity from the angular momentum.
+void renew_angular_velocity(const BodyProperties& properties, const BodyMotion& motion, BodyWork& work);
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -39,8 +39,7 @@ Real start_body(const StepSettings& settings, const BodyProperties& properties, 
       angular_velocity = absolute_sum(angular_velocity_of(properties, pose.rotation, motion.angular_momentum));
     work.speed = absolute_sum(motion.linear_velocity) + angular_velocity;
   }
-  work.angular_velocity =
-      world_angular_velocity(properties, work.inverse_inertia, motion.angular_momentum, -k_angular_velocity_power);
+  renew_angular_velocity(properties, motion, work);
   return angular_velocity;
 }
 

@@ -41,7 +41,6 @@ bool cast_at_terrain(const QueryBodies& bodies, uint32_t slot, const QueryShape&
   const bool asked = has_terrain_bytes(bodies.world, properties) &&
                      cast_on_terrain(asked_terrain(bodies.world, properties, bodies.state.poses[slot]), shape, motion,
                                      hit, touched) == Status::ok;
-  if (!asked) hit = {};
   hit.body = bodies.id_of(slot);
   hit.undecided = hit.undecided || !asked;
   if (hit.undecided && hit.fraction < entry) hit.fraction = entry;
@@ -65,14 +64,13 @@ bool first_impact(const QueryBodies& bodies, const BodyProperties& properties, c
   return parts.count() != 0;
 }
 
-/// Finds the hit on a body. False if there is none.
+/// Finds the hit on a body, in a new `hit`. False if there is none.
 bool cast_at(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Motion& motion, Fraction entry,
              QueryHit& hit) {
   const BodyProperties& properties = bodies.state.properties[slot];
   if (is_terrain(properties)) return cast_at_terrain(bodies, slot, shape, motion, entry, hit);
   const Pose pose = pose_near(properties, bodies.state.poses[slot], motion.start.position);
   TimeOfImpact impact;
-  hit = {};
   hit.body = bodies.id_of(slot);
   const bool asked = first_impact(bodies, properties, {pose, k_zero_vector, k_zero_vector}, shape, motion, impact);
   if (!asked || impact.outcome == ToiOutcome::undecided) {

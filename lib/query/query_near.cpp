@@ -22,7 +22,6 @@ bool near_at_terrain(const QueryBodies& bodies, uint32_t slot, const QueryShape&
   const bool asked = has_terrain_bytes(bodies.world, properties) &&
                      near_on_terrain(asked_terrain(bodies.world, properties, bodies.state.poses[slot]), shape, at,
                                      distance_max, hit, touched) == Status::ok;
-  if (!asked) hit = {};
   hit.body = bodies.id_of(slot);
   hit.undecided = hit.undecided || !asked;
   if (hit.undecided) hit.distance = max(hit.distance, gap);
@@ -44,14 +43,13 @@ bool nearest_part(const QueryBodies& bodies, const BodyProperties& properties, c
   return parts.count() != 0;
 }
 
-/// The distance to a body. False if it is beyond `distance_max`.
+/// The distance to a body, in a new `hit`. False if it is beyond `distance_max`.
 bool near_at(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Pose& at, Real gap,
              Real distance_max, QueryHit& hit) {
   const BodyProperties& properties = bodies.state.properties[slot];
   if (is_terrain(properties)) return near_at_terrain(bodies, slot, shape, at, gap, distance_max, hit);
   const Pose pose = pose_near(properties, bodies.state.poses[slot], at.position);
   Closest closest;
-  hit = {};
   hit.body = bodies.id_of(slot);
   const bool asked = nearest_part(bodies, properties, pose, shape, at, closest);
   if (!asked || closest.capped) {

@@ -75,6 +75,12 @@ struct TriangleSearch {
     found = true;
     best = hit;
   }
+  Status finish(QueryHit& hit, bool& touched) const {
+    if (status != Status::ok) return status;
+    touched = found;
+    hit = best;
+    return status;
+  }
 
   template <class Search>
   static void visit(Search& search, const Vec64& low, const Vec64& high) {
@@ -230,23 +236,17 @@ Status ray_on_terrain(const AskedSurface& ground, const Motion& motion, QueryHit
 
 Status cast_on_terrain(const AskedSurface& ground, const QueryShape& shape, const Motion& motion, QueryHit& hit,
                        bool& touched) {
-  touched = false;
-  hit = {};
   if (is_point(shape)) return ray_on_terrain(ground, motion, hit, touched);
   CastSearch search(ground, shape, motion);
   if (search.status == Status::ok) search.run();
-  touched = search.found;
-  hit = search.best;
-  return search.status;
+  return search.finish(hit, touched);
 }
 
 Status near_on_terrain(const AskedSurface& ground, const QueryShape& shape, const Pose& at, Real distance_max,
                        QueryHit& hit, bool& touched) {
   NearSearch search(ground, shape, at);
   if (search.status == Status::ok) search.run(raw_length(distance_max));
-  touched = search.found && search.best.distance <= distance_max;
-  hit = search.best;
-  return search.status;
+  return search.finish(hit, touched);
 }
 
 Status side_of_triangle(const AskedSurface& ground, uint32_t triangle, const Pose& at, Vec3<Unit>& normal,

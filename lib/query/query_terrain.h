@@ -24,10 +24,12 @@ inline AskedSurface asked_terrain(const World& world, const BodyProperties& prop
 }
 
 /// The first triangle that the shape hits on its path. A point is cast as a ray. `touched` is set if there is one;
-/// `hit` receives its data except the body. Errors: those of the narrow phase, for any of the nearby triangles.
+/// `hit` receives its data except the body. Errors: those of the narrow phase, for any of the nearby triangles; then
+/// neither changes.
 Status cast_on_terrain(const AskedSurface& ground, const QueryShape& shape, const Motion& motion, QueryHit& hit,
                        bool& touched);
-/// The triangle nearest to the shape within the search distance `distance_max`, m. Results as for cast_on_terrain().
+/// The triangle nearest to the shape, which is searched up to the distance `distance_max`, m, so that a hit may also be
+/// farther. Results as for cast_on_terrain().
 Status near_on_terrain(const AskedSurface& ground, const QueryShape& shape, const Pose& at, Real distance_max,
                        QueryHit& hit, bool& touched);
 /// The normal of a triangle on the side of a point, in world axes, and the height of the point above the plane on that

@@ -51,7 +51,7 @@ bool are_equal_sets(BitSet a, BitSet b) {
 }
 
 bool can_move(const BodyProperties& properties) {
-  return is_dynamic(properties) || type_of(properties) == BodyType::kinematic;
+  return is_dynamic(properties) || is_kinematic(properties);
 }
 
 }  // namespace

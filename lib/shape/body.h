@@ -7,6 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 inline BodyType type_of(const BodyProperties& properties) { return static_cast<BodyType>(properties.type); }
+inline bool is_kinematic(const BodyProperties& properties) { return type_of(properties) == BodyType::kinematic; }
 inline bool is_dynamic(const BodyProperties& properties) { return type_of(properties) == BodyType::dynamic; }
 inline bool is_sensor(const BodyProperties& properties) { return properties.sensor != 0; }
 

@@ -1,5 +1,6 @@
 #include "shape/hull.h"
 
+#include "base/binary_search.h"
 #include "base/cycle.h"
 #include "math/wide.h"
 
@@ -60,17 +61,9 @@ bool offsets_are_good(const uint8_t* offsets, uint32_t count, uint32_t total) {
 /// The position of `b` in `neighbours` as a neighbour of `a`; k_half_edges_max if it is not a neighbour.
 uint32_t half_edge(const HullView& hull, uint32_t a, uint32_t b) {
   const HullIndices around = hull.neighbours(a);
-  uint32_t low = 0, high = around.count;
-  while (low < high) {
-    const uint32_t middle = (low + high) / 2;
-    if (around.index[middle] < b) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  if (low == around.count || around.index[low] != b) return k_half_edges_max;
-  return static_cast<uint32_t>(around.index + low - (hull.bytes + hull.at.neighbours));
+  const uint32_t at = partition_point(around.count, [&](uint32_t i) { return around.index[i] < b; });
+  if (at == around.count || around.index[at] != b) return k_half_edges_max;
+  return static_cast<uint32_t>(around.index + at - (hull.bytes + hull.at.neighbours));
 }
 
 /// Whether the triangles form a closed surface whose sides are the neighbours, no vertex lies above a triangle's plane,

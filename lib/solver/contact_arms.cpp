@@ -45,7 +45,7 @@ Unit advance(const RowBody& dynamic, const RowBody& other, const Vec3<Unit>& nor
   const Unit angle = rotation_of_points(dynamic, normal, time);
   const Vec3<Unit> rotated = cross(normal, arm) * angle;
   arm += rotated;
-  if (type_of(other.properties) != BodyType::kinematic) return angle;
+  if (!is_kinematic(other.properties)) return angle;
   const Vec3<Real> relative = (dynamic.motion.linear_velocity - other.motion.linear_velocity) * time +
                               real_from_unit(rotated, dynamic.properties.size_exponent);
   const Vec3<Real> slide = relative - normal * dot(relative, normal);

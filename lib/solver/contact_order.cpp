@@ -31,7 +31,7 @@ uint16_t kind_of(const ContactWork& contact) {
 /// Takes the lowest colour that is free at both bodies and returns it. Returns k_colour_overflow if there is none.
 uint16_t take_colour(Span<const BodyProperties> properties, const ContactState& contact, Span<BodyWork> work) {
   const bool colours_a = is_dynamic(properties[contact.body_a]), colours_b = is_dynamic(properties[contact.body_b]);
-  uint64_t taken = k_has_sliver;
+  uint64_t taken = k_has_near;
   if (colours_a) taken |= work[contact.body_a].colours;
   if (colours_b) taken |= work[contact.body_b].colours;
   if (taken == UINT64_MAX) return k_colour_overflow;
@@ -58,16 +58,22 @@ void copy_by_island(Span<const Island> islands, Span<BodyWork> work, Span<const 
 /// Orders the contacts of one island. Returns the number of contacts that found no free colour.
 uint32_t order_island(Span<const BodyProperties> properties, Span<const ContactWork> contacts, Span<BodyWork> work,
                       Span<ContactOrder> spare, Span<ContactOrder> order) {
-  radix_sort(
-      order, spare, [](const ContactOrder& entry, int digit) { return entry.key >> (8 * digit) & 255; }, 4);
+  // The digits before k_kind are those of the key; the last digit is the colour.
+  constexpr int k_kind = 4, k_digits = 6;
+  const auto sort_by = [&](int first, int end) {
+    const auto digit_of = [first](const ContactOrder& entry, int digit) {
+      const int at = first + digit;
+      return at < k_kind ? entry.key >> (8 * at) & 255 : uint32_t{at == k_kind ? entry.kind : entry.colour};
+    };
+    radix_sort(order, spare, digit_of, end - first);
+  };
+  sort_by(0, k_kind);
   uint32_t overflows = 0;
   for (ContactOrder& entry : order) {
     entry.colour = take_colour(properties, contacts[entry.contact].state, work);
     overflows += entry.colour == k_colour_overflow ? 1 : 0;
   }
-  radix_sort(
-      order, spare,
-      [](const ContactOrder& entry, int digit) { return uint32_t{digit == 0 ? entry.kind : entry.colour}; }, 2);
+  sort_by(k_kind, k_digits);
   return overflows;
 }
 

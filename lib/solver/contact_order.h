@@ -23,8 +23,8 @@ constexpr uint32_t group_size(const ContactOrder& entry) { return uint32_t{entry
 /// Computes the order in which the solver visits contacts. First the contacts of each island are sorted by the hash of
 /// their bodies' ids; contacts with equal hashes keep their order. In this order, each contact takes the lowest colour
 /// that is free at both of its dynamic bodies. The result is sorted by (island, colour, ContactOrder::kind, hash). Any
-/// schedule that keeps the order of the contacts of each dynamic body gives the same bits. The order by hash, instead of
-/// the order of creation, is necessary for a pyramid to come to rest (docs/design/solver.md, "Order of the solve").
+/// schedule that keeps the order of the contacts of each dynamic body gives the same bits. The order by hash, instead
+/// of the order of creation, is necessary for a pyramid to come to rest (docs/design/solver.md, "Order of the solve").
 ///
 /// Input, from find_islands(): the islands of the bodies in `work`, and the ranges of contacts in `islands`. `spare` is
 /// work space as large as `order`. Returns the number of contacts that found no free colour.

@@ -357,6 +357,7 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
   }
   // The limits of speed below are multiples of the fall_speed() of the smaller body's extent.
   const Real fall = min(a.fall, b.fall);
+  work.deep = scale_by_power(extent, -6);
   work.push_max = scale_by_power(fall, -1);
   work.rebound_min = settings.restitution_threshold * fall;
 }

@@ -247,7 +247,7 @@ struct ContactSolver {
   /// target of a row is:
   ///
   ///     C > 0, speculative: J v >= -C / h: the gap may close, but not become negative
-  ///     C <= 0, soft:       J v = -max(rate C / h, -push_max)
+  ///     C <= 0, soft:       J v = -max(rate (C + min(C + deep, 0)) / h, -push_max)
   ///
   /// A soft row is a damped spring (Softness). Each sweep over the contacts changes the impulse of a single soft row by
   ///
@@ -264,6 +264,7 @@ struct ContactSolver {
     const auto soft = Kind::softness(settings, contact);
     Factor push[k_manifold_points_max] = {}, least = none;
     typename Kind::Mask apart[k_manifold_points_max] = {};
+    const Factor deep = moved.block.held(contact.deep);
     DETENT_UNROLL
     for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
       if (i >= count) break;
@@ -271,7 +272,8 @@ struct ContactSolver {
       // order.
       const Factor separation = held(moved.block.number(contact.separation[i]) + displacement.at(contact, i));
       apart[i] = separation > none;
-      const Factor length = select(apart[i], separation, Factor(held(times(separation, soft.rate))));
+      const Factor overlap = held(separation + min(Factor(held(separation + deep)), none));
+      const Factor length = select(apart[i], separation, Factor(held(times(overlap, soft.rate))));
       // A speed times 2^-rate_exponent, as a number of the block of `moved`.
       push[i] = select(Kind::has_point(contact, i), held(times(length, Kind::unit(settings.rate_mantissa))), none);
       least = min(least, push[i]);

@@ -240,7 +240,7 @@ struct LaneContact {
   LaneScaled<count> twist_mass, rolling_mass;
   LaneShare<count> inverse_mass_a, inverse_mass_b;
   LaneScaled<count> friction, twist_arm, rolling_arm;
-  LaneReals<count> push_max;
+  LaneReals<count> push_max, deep;
   LaneStoredInt32<count> static_pair;
   LaneInverseInertia<count> inverse_inertia[2];
 };

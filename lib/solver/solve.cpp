@@ -1,5 +1,6 @@
 #include "solver/solve.h"
 
+#include "base/binary_search.h"
 #include "base/processor.h"
 #include "joint/joint.h"
 #include "motion/angular_velocity.h"
@@ -9,6 +10,7 @@
 #include "solver/contact_solver.h"
 #include "solver/post_stabilise.h"
 #include "solver/solve_lanes.h"
+#include "solver/warm_start.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -36,9 +38,7 @@ uint32_t integrate_velocities(const SolverBodies& bodies, Span<const uint32_t> i
     clamped += clamp_vector(motion.linear_velocity, k_speed_work_max) +
                clamp_vector(motion.angular_momentum, k_angular_velocity_work_max);
     // Only contacts read this member.
-    if (touches)
-      now.angular_velocity = world_angular_velocity(bodies.properties[slot], now.inverse_inertia,
-                                                    motion.angular_momentum, -k_angular_velocity_power);
+    if (touches) renew_angular_velocity(bodies.properties[slot], motion, now);
   }
   return clamped;
 }
@@ -67,8 +67,8 @@ uint32_t integrate_positions(const SolverBodies& bodies, Span<const uint32_t> is
   return clamped;
 }
 
-/// Rounds per substep that alternate between contacts and joints: always at most the first number, and at most the second
-/// while a round changes velocities as much as an impact does.
+/// Rounds per substep that alternate between contacts and joints: always at most the first number, and at most the
+/// second while a round changes velocities as much as an impact does.
 constexpr uint32_t k_joint_rounds = 4, k_joint_rounds_max = 16;
 
 /// Stores the bodies' current velocities, for has_settled().
@@ -100,6 +100,15 @@ uint32_t solved_at_once(const StepSettings& settings, Span<const ContactOrder> o
   return count;
 }
 
+void put_groups_in_lanes(const StepSettings& settings, const SolverBodies& bodies, const IslandContacts& all) {
+  share(settings.team, all.order.count, k_contacts_shared, [&](uint32_t first, uint32_t last) {
+    for (uint32_t i = first; i < last; ++i) {
+      const uint32_t count = group_size(all.order[i]);
+      if (count > 1) put_in_lanes(bodies, all.contacts, {all.order.data + i, count}, &all.lanes[all.order[i].key]);
+    }
+  });
+}
+
 /// Marks the groups of contacts that are solved at once, and puts them into lanes. A group takes whole LaneSpaces, even
 /// if it leaves lanes empty. It is made smaller if the later contacts would have less than one LaneSpace per four.
 void put_all_in_lanes(const StepSettings& settings, const SolverBodies& bodies, const IslandContacts& all) {
@@ -116,12 +125,7 @@ void put_all_in_lanes(const StepSettings& settings, const SolverBodies& bodies, 
     group[0].key = used;
     used += lane_spaces(count);
   }
-  share(settings.team, all.order.count, k_contacts_shared, [&](uint32_t first, uint32_t last) {
-    for (uint32_t i = first; i < last; ++i) {
-      const uint32_t count = group_size(all.order[i]);
-      if (count > 1) put_in_lanes(bodies, all.contacts, {all.order.data + i, count}, &all.lanes[all.order[i].key]);
-    }
-  });
+  put_groups_in_lanes(settings, bodies, all);
 }
 
 void take_all_from_lanes(const StepSettings& settings, const IslandContacts& all) {
@@ -132,6 +136,26 @@ void take_all_from_lanes(const StepSettings& settings, const IslandContacts& all
       if (count > 1) take_from_lanes(&all.lanes[all.order[i].key], count, all.contacts);
     }
   });
+}
+
+/// Limits the warm start of each of the islands that are solved together.
+void limit_warm_starts(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> islands,
+                       const IslandContacts& all) {
+  bool limited = false;
+  for (uint32_t i = 0, count = 0; i < islands.count; i += count) {
+    const auto island_at = [&](uint32_t at) { return bodies.work[islands[at]].island; };
+    for (count = 1; i + count < islands.count && island_at(i + count) == island_at(i);) ++count;
+    if (limit_warm_start(bodies, {islands.data + i, count})) limited = true;
+  }
+  if (!limited) return;
+  take_all_from_lanes(settings, all);
+  for (const ContactOrder& entry : all.order) {
+    ContactWork& contact = all.contacts[entry.contact];
+    const uint32_t a = contact.state.body_a, b = contact.state.body_b;
+    const BodyWork& body = bodies.work[is_dynamic(bodies.properties[a]) ? a : b];
+    if (body.supports != 0) scale_impulses(body.carried, contact);
+  }
+  if (uses_lanes(settings)) put_groups_in_lanes(settings, bodies, all);
 }
 
 /// What a pass does with a contact, and with a group of contacts in lanes.
@@ -161,15 +185,7 @@ void pass_in_order(const StepSettings& settings, const SolverBodies& bodies, con
 
 /// The number of contacts at the start of `order` that have the same colour.
 uint32_t colour_count(Span<const ContactOrder> order) {
-  uint32_t low = 1, high = order.count;
-  while (low < high) {
-    const uint32_t middle = low + (high - low) / 2;
-    if (order[middle].colour == order[0].colour)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
+  return partition_point(order.count, [&](uint32_t i) { return order[i].colour == order[0].colour; });
 }
 
 /// One pass over all contacts of an island. Threads share the contacts of each colour, because these have no dynamic
@@ -188,8 +204,6 @@ void pass_over(const StepSettings& settings, const SolverBodies& bodies, const I
     i += count;
   }
 }
-
-bool is_kinematic(const BodyProperties& properties) { return type_of(properties) == BodyType::kinematic; }
 
 /// Sets the displacement and rotation of a kinematic body at `time`, s, after the start of the tick.
 /// BodyMotion::angular_momentum of a kinematic body is its angular velocity.
@@ -285,7 +299,10 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
     count.clamped += share_sum(settings.team, island, k_bodies_shared, [&](Span<const uint32_t> slots) {
       return integrate_velocities(bodies, slots, substep == 0, order.count != 0);
     });
-    if (substep == 0) pass_over(settings, bodies, all, k_warm_start);
+    if (substep == 0)
+      pass_over(settings, bodies, all, k_warm_start);
+    else if (joints.code == nullptr)
+      limit_warm_starts(settings, bodies, island, all);
     for (const ContactOrder& entry : kinematic ? order : order.first(0)) {
       const ContactWork& contact = all.contacts[entry.contact];
       if (contact.static_pair == 0) continue;
@@ -345,7 +362,7 @@ uint32_t integrate_kinematic(const StepSettings& settings, const SolverBodies& b
   uint32_t clamped = 0;
   for (uint32_t slot = 0; slot < bodies.properties.count; ++slot) {
     const BodyProperties& properties = bodies.properties[slot];
-    if (type_of(properties) != BodyType::kinematic) continue;
+    if (!is_kinematic(properties)) continue;
     BodyWork& now = bodies.work[slot];
     place_kinematic(properties, bodies.motions[slot], settings.tick_time, now);
     Vec3<Real> angular_velocity;

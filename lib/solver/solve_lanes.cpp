@@ -236,6 +236,7 @@ void put_in_lanes(const SolverBodies& bodies, Span<const ContactWork> contacts, 
     each_impulse(to, [&](const auto& pick, auto& impulses) { read_all<count>(from, pick, impulses); });
     read_all<count>(
         from, [](const ContactWork& contact) { return contact.separation; }, to.separation);
+    to.deep = read_real(EachLane<const Real*, count>([&](uint32_t k) { return &from[k]->deep; }).of);
     to.push_max = read_real(EachLane<const Real*, count>([&](uint32_t k) { return &from[k]->push_max; }).of);
     clear_absent_points(to);
   });

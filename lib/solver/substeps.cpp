@@ -5,6 +5,7 @@
 #include "math/scaled.h"
 #include "shape/shape_properties.h"
 #include "solver/island.h"
+#include "solver/warm_start.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -74,16 +75,6 @@ uint32_t next_below(uint32_t substeps, uint32_t least) {
   return below;
 }
 
-void scale_impulses(Scaled ratio, ContactWork& contact) {
-  const auto scale = [&](Real& value) {
-    bool saturated = false;
-    value = multiply(value, ratio, saturated);
-  };
-  for (Real& impulse : contact.state.normal_impulse) scale(impulse);
-  for (Real& impulse : contact.friction_impulse) scale(impulse);
-  for (Real& impulse : contact.angular_impulse) scale(impulse);
-}
-
 /// Scales a contact's impulses, which were stored in a tick with `before` substeps, for a tick with `now` substeps.
 void rescale(uint32_t before, uint32_t now, ContactWork& contact) {
   if (before == now || before == 0) return;
@@ -136,7 +127,7 @@ void hand_down(Span<const BodyProperties> properties, const Vec3<Unit>& down, Sp
 
 }  // namespace
 
-void choose_substeps(const StepSettings& settings, Span<const BodyProperties> properties, Span<const BodyWork> work,
+void choose_substeps(const StepSettings& settings, Span<const BodyProperties> properties, Span<BodyWork> work,
                      Span<const uint32_t> bodies, Span<const ContactOrder> order, Span<Island> islands,
                      Span<ContactWork> contacts, Span<BodyActivity> activities) {
   for (Island& island : islands) {
@@ -145,20 +136,27 @@ void choose_substeps(const StepSettings& settings, Span<const BodyProperties> pr
     const uint32_t least = alone < island.substeps ? island.substeps : alone;
     const uint32_t for_joints = jointed ? notch_for(island.joint_need, least, settings.substeps_max) : 0;
     Scaled need[2] = {0.0, 0.0};  // largest need: of contacts on edges and faces; of rolling contacts
+    bool kinematic = false;
     for (uint32_t i = 0; i < island.contact_count; ++i) {
       const ContactWork& contact = contacts[order[island.first_contact + i].contact];
       const uint32_t a = contact.state.body_a, b = contact.state.body_b;
-      const uint32_t run = work[is_dynamic(properties[a]) ? a : b].run_length;
+      const uint32_t body = is_dynamic(properties[a]) ? a : b;
+      if (is_kinematic(properties[a + b - body])) kinematic = true;
+      const uint32_t run = work[body].run_length;
       const Scaled wanted = needed(settings, contact, properties[a], properties[b], run, jointed);
       Scaled& most = need[contact.state.point_count < k_edge_points ? 1 : 0];
       if (less(most, wanted)) most = wanted;
     }
     uint32_t before = 0, calm = UINT32_MAX;
+    Scaled lightest = properties[bodies[island.first_body]].mass, heaviest = lightest;
     for (uint32_t i = 0; i < island.body_count; ++i) {
       const uint32_t slot = bodies[island.first_body + i];
       const BodyActivity& activity = activities[slot];
       before = activity.substeps > before ? activity.substeps : before;
       calm = activity.calm_ticks < calm ? activity.calm_ticks : calm;
+      const Scaled mass = properties[slot].mass;
+      if (less(mass, lightest)) lightest = mass;
+      if (less(heaviest, mass)) heaviest = mass;
     }
     uint32_t now = settings.substeps_fixed;
     if (now == 0 && island.contact_count == 0 && !jointed) {
@@ -190,6 +188,8 @@ void choose_substeps(const StepSettings& settings, Span<const BodyProperties> pr
       }
     }
     island.substeps = now;
+    const bool limits =
+        island.contact_count > 1 && !kinematic && !less(heaviest, scaled_by_power(lightest, k_limited_mass_power));
     for (uint32_t i = 0; i < island.contact_count; ++i) {
       ContactWork& contact = contacts[order[island.first_contact + i].contact];
       const ContactState& state = contact.state;
@@ -197,7 +197,9 @@ void choose_substeps(const StepSettings& settings, Span<const BodyProperties> pr
       rescale(activities[body].substeps, now, contact);
     }
     for (uint32_t i = 0; i < island.body_count; ++i) {
-      BodyActivity& activity = activities[bodies[island.first_body + i]];
+      const uint32_t slot = bodies[island.first_body + i];
+      work[slot].supports = limits ? 1 : 0;
+      BodyActivity& activity = activities[slot];
       activity.substeps = island.contact_count == 0 && !jointed ? 0 : now;
       activity.calm_ticks = calm;
     }

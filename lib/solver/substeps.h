@@ -43,8 +43,8 @@ inline constexpr uint32_t k_few_calm_ticks = 8;
 /// from the loads of the contacts and from Island::joint_need. It increases at once. Without joints, it decreases to
 /// the next lower entry of k_notches after k_calm_ticks, or after k_few_calm_ticks if half the number is enough. With
 /// joints, it decreases to the number that is needed, after k_few_calm_ticks. The function scales contact
-/// impulses that were stored with another number of substeps.
-void choose_substeps(const StepSettings& settings, Span<const BodyProperties> properties, Span<const BodyWork> work,
+/// impulses that were stored with another number of substeps. It also sets BodyWork::supports for the substeps.
+void choose_substeps(const StepSettings& settings, Span<const BodyProperties> properties, Span<BodyWork> work,
                      Span<const uint32_t> bodies, Span<const ContactOrder> order, Span<Island> islands,
                      Span<ContactWork> contacts, Span<BodyActivity> activities);
 

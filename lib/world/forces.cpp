@@ -202,7 +202,7 @@ Status move_kinematic(World& world, BodyId id, const Position& position, const Q
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
   const BodyProperties& properties = state.properties[slot];
-  if (type_of(properties) != BodyType::kinematic) return Status::bad_argument;
+  if (!is_kinematic(properties)) return Status::bad_argument;
   BodyPose target{};
   if (const Status status = make_pose(position, rotation, target); status != Status::ok) return status;
   const BodyPose& pose = state.poses[slot];

@@ -3,6 +3,7 @@
 #include <detent/distance.h>
 #include <detent/sensor.h>
 
+#include "base/binary_search.h"
 #include "ccd/impact_pair.h"
 #include "contact/compound_ops.h"
 #include "contact/terrain_distance.h"
@@ -121,15 +122,8 @@ bool may_sense(const SensorStage& stage, uint32_t sensor, uint32_t body) {
 uint64_t key_of(const SensedState& sensed) { return sensed_key(sensed.sensor, sensed.body, false); }
 
 bool was_within(const SensorStage& stage, uint64_t key) {
-  uint32_t low = 0, high = stage.before.count;
-  while (low < high) {
-    const uint32_t middle = low + (high - low) / 2;
-    if (key_of(stage.before[middle]) < key)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low < stage.before.count && key_of(stage.before[low]) == key;
+  const uint32_t at = partition_point(stage.before.count, [&](uint32_t i) { return key_of(stage.before[i]) < key; });
+  return at < stage.before.count && key_of(stage.before[at]) == key;
 }
 
 /// The index of a pair in `passed`, or the count if it is not there. The list is short: only impacts divide a sweep

@@ -1,5 +1,6 @@
 #include "world/step_contacts.h"
 
+#include "base/binary_search.h"
 #include "base/heap.h"
 #include "contact/compound_ops.h"
 #include "contact/contact_cache.h"
@@ -185,15 +186,15 @@ struct Collider {
     count.recycled += recycled ? 1 : 0;
     if (geometry.count != 0)
       add(key, 0, geometry, manifold, before.contact);
-    else if (geometry.seam)
-      mark_sliver(slot_a, slot_b);
+    else if (geometry.seam || geometry.near)
+      mark_near(slot_a, slot_b);
   }
 
   /// Records, for continuous collision, that these bodies may be near each other although they have no contact.
-  void mark_sliver(uint32_t slot_a, uint32_t slot_b) const {
+  void mark_near(uint32_t slot_a, uint32_t slot_b) const {
     alone(settings.team, [&] {
-      bodies.work[slot_a].colours |= k_has_sliver;
-      bodies.work[slot_b].colours |= k_has_sliver;
+      bodies.work[slot_a].colours |= k_has_near;
+      bodies.work[slot_b].colours |= k_has_near;
     });
   }
 
@@ -249,15 +250,7 @@ struct Collider {
 
   /// Begins the search in the last tick's contacts at those of this pair.
   void seek(uint64_t key) {
-    uint32_t low = 0, high = last.awake.count;
-    while (low < high) {
-      const uint32_t middle = low + (high - low) / 2;
-      if (key_of(last.contacts[last.awake[middle]]) < key)
-        low = middle + 1;
-      else
-        high = middle;
-    }
-    next = low;
+    next = partition_point(last.awake.count, [&](uint32_t i) { return key_of(last.contacts[last.awake[i]]) < key; });
   }
   /// Moves a contact that another collider found to the end of the contacts.
   void move(uint32_t from) {
@@ -304,7 +297,7 @@ struct Collider {
       }
       for (uint32_t i = 0; !kept && i < found.count; ++i) manifold[i] = {};
     }
-    if (found.count == 0 && (found.seam || found.capped)) mark_sliver(slot_a, slot_b);
+    if (found.count == 0 && (found.seam || found.capped)) mark_near(slot_a, slot_b);
     count.capped += found.capped ? 1 : 0;
     count.parts_dropped += found.dropped;
     if (found.dropped != 0) {

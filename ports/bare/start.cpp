@@ -22,7 +22,8 @@ int split_command_line() {
   if (semihosting(Semihosting::command_line, &block) != 0) machine_panic("the command line is longer than 512 bytes");
   int count = 0;
   char* next = command_line;
-  for (char* end = strchr(next, k_argument_end); end != nullptr; end = strchr(next, k_argument_end)) {
+  for (char* end = command_line; *end != '\0'; ++end) {
+    if (*end != k_argument_end) continue;
     if (count == k_arguments_max) machine_panic("more than 16 arguments");
     *end = '\0';
     arguments[count++] = next;

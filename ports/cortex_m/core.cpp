@@ -9,6 +9,42 @@ int32_t semihosting(Semihosting operation, const void* argument) {
   return static_cast<int32_t>(r0);
 }
 
+#if defined(__ARM_ARCH_6M__)
+// The quotient (r0, r1) and the remainder (r2, r3) of two signed 64-bit integers, from those of their magnitudes.
+// libgcc's own has a second division routine, which is 0.6 KB larger.
+asm(".syntax unified\n"
+    ".section .text.__aeabi_ldivmod, \"ax\", %progbits\n"
+    ".balign 4\n"
+    ".global __aeabi_ldivmod\n"
+    ".type __aeabi_ldivmod, %function\n"
+    ".thumb_func\n"
+    "__aeabi_ldivmod:\n"
+    "push {r4, r5, r6, lr}\n"
+    "asrs r4, r1, #31\n"  // -1 if the dividend is negative, else 0
+    "asrs r5, r3, #31\n"  // -1 if the divisor is negative, else 0
+    "eors r0, r4\n"
+    "eors r1, r4\n"
+    "subs r0, r0, r4\n"
+    "sbcs r1, r4\n"
+    "eors r2, r5\n"
+    "eors r3, r5\n"
+    "subs r2, r2, r5\n"
+    "sbcs r3, r5\n"
+    "bl __aeabi_uldivmod\n"
+    "eors r2, r4\n"  // the remainder has the sign of the dividend
+    "eors r3, r4\n"
+    "subs r2, r2, r4\n"
+    "sbcs r3, r4\n"
+    "eors r4, r5\n"  // the quotient is negative if the signs differ
+    "eors r0, r4\n"
+    "eors r1, r4\n"
+    "subs r0, r0, r4\n"
+    "sbcs r1, r4\n"
+    "pop {r4, r5, r6, pc}\n"
+    ".size __aeabi_ldivmod, . - __aeabi_ldivmod\n"
+    ".text\n");
+#endif
+
 extern "C" {
 // Kept small: until the floating-point unit is on, no function may save its registers.
 [[noreturn]] void machine_reset() {

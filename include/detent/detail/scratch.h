@@ -62,19 +62,22 @@ struct alignas(sizeof(Unit)) FreeRotation {
   int32_t odd;      ///< index of the odd axis
 };
 
-/// In BodyWork::colours: a contact of the body was left out as a sliver (contact_seam.h).
-inline constexpr uint64_t k_has_sliver = uint64_t{1} << 63;
+/// In BodyWork::colours: the body may be near another body with which it has no contact (ContactGeometry::near, seam).
+inline constexpr uint64_t k_has_near = uint64_t{1} << 63;
 
 /// A body during the substeps. Members from `axes` to `speed` are set at the start of the tick.
 struct alignas(8) BodyWork {
-  uint64_t colours;     ///< bit set of the colours of the body's contacts, and k_has_sliver
+  uint64_t colours;     ///< bit set of the colours of the body's contacts, and k_has_near
   uint32_t island;      ///< while islands are found: a link towards the island's first body; then the island's index
   uint32_t run;         ///< as `island`, for the body's run: a chain of bodies with at most two contacts each
   uint32_t run_length;  ///< of the run's first body: number of bodies in the run
   uint32_t contacts;    ///< number of the body's contacts
-  uint32_t supports;    ///< number of contacts that support it, while loads are estimated
+  uint32_t supports;    ///< number of contacts that support it, while loads are estimated; then 1 if the warm start of
+                        ///< its island is limited (lib/solver/warm_start.h), else 0
   uint32_t joint_body;  ///< its index among the bodies that have joints, else UINT32_MAX
-  alignas(sizeof(Real)) Scaled carried;  ///< its own mass plus that of the bodies on it, kg, while loads are estimated
+  /// Its own mass plus that of the bodies on it, kg, while loads are estimated. Then the share of the warm start that
+  /// its island keeps in this substep.
+  alignas(sizeof(Real)) Scaled carried;
   Real height;    ///< height above the island's first body, against gravity, m, while loads are estimated
   Quat rotation;  ///< current
   Matrix3 axes;
@@ -144,6 +147,7 @@ struct alignas(8) ContactWork {
   Real impulse_max[k_manifold_points_max];  ///< largest normal impulse of this tick, m/s
   Real friction_impulse[2];                 ///< along the tangents, m/s
   Real angular_impulse[3];                  ///< about the normal and the tangents, m/s
+  Real deep;                                ///< depth, m, from which on the spring is twice as stiff
   Real push_max;                            ///< largest separating speed of the position correction, m/s
   Real rebound_min;                         ///< approach speed below which the contact does not rebound, m/s
   /// Normal velocity at the time of touch, predicted from the motion at the start of the tick, m/s; negative if the gap
@@ -299,6 +303,7 @@ struct alignas(8) JointWork : JointWorkStart, JointRows {
   Real side[k_joint_rows_max];                             ///< right-hand side of a solve, then L^-1 times it
   Real impulse[k_joint_rows_max];                          ///< solution of a solve
   Real total[k_joint_rows_max];                            ///< impulses of the rows that always act, in this substep
+  Real kept[k_joint_rows_max];  ///< impulses of the rows that always act, with which the next substep begins
   Real pull;  ///< magnitude of the linear impulse in the last substep / mass of the lighter body, m/s
   int32_t row_power[k_joint_rows_max];  ///< exponent of the unit of each row
 };
@@ -327,8 +332,8 @@ struct JointCoupling {
 /// The motion of a body for the rest of the tick, from its pose at `from`: constant velocity and constant angular
 /// velocity, world axes.
 struct BodySweep {
-  /// A bit of `marks`, set if k_has_sliver was set in BodyWork::colours of the body.
-  static constexpr uint32_t k_mark_sliver = 64;
+  /// A bit of `marks`, set if k_has_near was set in BodyWork::colours of the body.
+  static constexpr uint32_t k_mark_near = 64;
   Fraction from;
   Vec3<Real> displacement;  ///< in a whole tick at this velocity, m
   Vec3<Real> rotation_vector;          ///< in a whole tick at this angular velocity, rad

@@ -185,8 +185,8 @@ struct alignas(8) JointState {
   Scaled break_torque;
   Vec3<Scaled> force;   ///< on B in the last tick, N, world
   Vec3<Scaled> torque;  ///< on B in the last tick, N m, world
-  /// Impulses of the joint's rows in the last substep, times (number of substeps) / 2^k_kept_power
-  /// (lib/joint/joint.h), m/s.
+  /// Impulses of the joint's rows in the last substep, without those that follow curved paths, times (number of
+  /// substeps) / 2^k_kept_power (lib/joint/joint.h), m/s. The next tick begins with them.
   Real impulse[k_joint_rows_max];
 };
 

@@ -101,7 +101,7 @@ void summarise(const RunCommand& command, const RunOutcome& outcome) {
             static_cast<unsigned long long>(outcome.ticks_full), fit.c_str());
   }
   if (outcome.ticks_incomplete > outcome.ticks_full) {
-    fprintf(stderr, "%s: %llu ticks lost range, contacts beyond the eight of a pair, or a body's time\n",
+    fprintf(stderr, "%s: %llu ticks lost range, contacts beyond the most that a pair may have, or a body's time\n",
             command.path.c_str(), static_cast<unsigned long long>(outcome.ticks_incomplete - outcome.ticks_full));
   }
 }

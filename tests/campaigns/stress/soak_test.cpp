@@ -142,13 +142,13 @@ struct Ending {
   uint64_t digest;
 };
 #if defined(DETENT_FX64)
-constexpr Ending k_endings[] = {{10000, 0x87f028a428f83e8c}, {1000000, 0x54ad637fc2c87329}};
+constexpr Ending k_endings[] = {{10000, 0xc9e4cd02874caf06}, {1000000, 0xabdd7890517b1568}};
 #elif defined(DETENT_FX32)
-constexpr Ending k_endings[] = {{10000, 0x499bb4d0e693560a}, {1000000, 0x9230804cc503fd02}};
+constexpr Ending k_endings[] = {{10000, 0xa92f48a65c20cae3}, {1000000, 0x672c03dddaccb074}};
 #elif defined(DETENT_F32)
-constexpr Ending k_endings[] = {{10000, 0xbf2ae41cff655a75}};
+constexpr Ending k_endings[] = {{10000, 0xd7f0b7eb4edbbcdd}};
 #else
-constexpr Ending k_endings[] = {{10000, 0x3368407072f23210}};
+constexpr Ending k_endings[] = {{10000, 0x0c3d24323029c33e}};
 #endif
 
 /// A million ticks if DETENT_FULL is set.

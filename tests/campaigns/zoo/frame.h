@@ -74,6 +74,12 @@ struct StepFigures {
   const char* lost_most = "";  ///< the greatest of the counts in `lost`
 };
 
+/// A change of a scene's settings.
+struct Variation {
+  double gravity = 1;  ///< times the scene's gravity
+  double tick = 1;     ///< times the scene's tick; the scene takes as long, and its calls are made at the same times
+};
+
 /// A scene that runs in one configuration.
 class Play {
  public:
@@ -81,14 +87,13 @@ class Play {
   /// Makes the calls before the next tick. Returns whether there were any; on failure sets `problem`.
   virtual bool call(std::string& problem) = 0;
   virtual StepFigures step() = 0;
-  /// Makes gravity stronger by a number times 2^-16 of itself: a scene that differs a little. Returns
-  /// whether it did.
-  virtual bool vary(uint32_t /* number */) { return false; }
+  /// Changes the settings, before the first tick. Returns false if they would leave their range.
+  virtual bool vary(const Variation& variation) = 0;
   /// From here on stages() counts, ns.
   virtual void start_profile() {}
   virtual detent_test::StageTimes stages() const { return {}; }
   virtual Frame frame() const = 0;
-  virtual uint32_t ticks() const = 0;  ///< the scene's length
+  virtual uint32_t ticks() const = 0;  ///< the scene's length, with its variation
   /// The name of a body of Frame::bodies, for messages.
   virtual std::string body_name(uint32_t index) const = 0;
   /// The name of a joint of Frame::joints, for messages.

@@ -21,6 +21,7 @@ struct Options {
   std::string list_file = DETENT_ROOT "/tests/campaigns/zoo/zoo.csv", markdown;
   bool list = false, renew = false;
   uint32_t vary = 0;
+  Variation variation;
 };
 
 bool wanted(const std::vector<std::string>& names, const std::string& name) {
@@ -39,12 +40,15 @@ bool write_page(const std::string& path, const std::vector<Row>& rows) {
   return static_cast<bool>(std::ofstream(path) << page_of(page, rows));
 }
 
-/// Plays variations of a scene and prints how many of them fail. Returns false if one could not be played.
-bool vary(const Entry& entry, const Engine& engine, uint32_t count) {
+/// Plays variations of a scene, whose gravity differs by 2^-16 each, and prints how many of them fail. Returns false if
+/// one could not be played.
+bool vary(const Entry& entry, const Engine& engine, uint32_t count, Variation variation) {
+  const double gravity = variation.gravity;
   uint32_t fails = 0;
   std::map<std::string, uint32_t> checks;
   for (uint32_t number = 1; number <= count; ++number) {
-    const Verdict verdict = visit(entry, engine, k_folder, detent_test::Ground::own, number);
+    variation.gravity = gravity * (1 + number * 0x1p-16);
+    const Verdict verdict = visit(entry, engine, k_folder, detent_test::Ground::own, variation);
     if (!verdict.problem.empty()) return cannot(entry.scene + ": " + verdict.problem) == k_exit_good;
     fails += verdict.failed.empty() ? 0u : 1u;
     for (const std::string& check : verdict.failed) ++checks[check];
@@ -78,10 +82,11 @@ int run(const Options& options) {
       if (terminal) fprintf(stderr, "\r\033[K%s %s", entry.scene.c_str(), engine.config);
       if (options.vary != 0) {
         if (terminal) fprintf(stderr, "\r\033[K");
-        good = vary(entry, engine, options.vary) && good;
+        good = vary(entry, engine, options.vary, options.variation) && good;
         continue;
       }
-      const Row row = {&entry, engine.config, visit(entry, engine, k_folder)};
+      const Row row = {&entry, engine.config,
+                       visit(entry, engine, k_folder, detent_test::Ground::own, options.variation)};
       const std::string surprise = surprises(entry, engine.config, row.verdict);
       if (terminal) fprintf(stderr, "\r\033[K");
       printf("%s\n", line_of(row).c_str());
@@ -126,6 +131,15 @@ int main(int argc, char** argv) {
   app.add_option("--vary", options.vary,
                  "Play each scene so often, each time with a slightly stronger gravity, and count the failures")
       ->check(CLI::Range(1u, 1000u))
+      ->excludes(renew)
+      ->excludes(markdown);
+  app.add_option("--gravity", options.variation.gravity, "Multiply the gravity of the scenes by this factor")
+      ->excludes(renew)
+      ->excludes(markdown);
+  app.add_option(
+         "--tick", options.variation.tick,
+         "Multiply the tick of the scenes by this factor: 2 for 30 Hz instead of 60. They take as long as before")
+      ->check(CLI::Range(1.0 / 64, 64.0))
       ->excludes(renew)
       ->excludes(markdown);
   CLI11_PARSE(app, argc, argv);

@@ -20,7 +20,12 @@ class DetentPlay : public detent_zoo::Play {
  public:
   explicit DetentPlay(std::unique_ptr<OpenedScene> scene) : scene_(std::move(scene)) {}
 
-  bool call(std::string& problem) override { return scene_->call(tick_, problem); }
+  bool call(std::string& problem) override {
+    bool any = false;
+    for (; problem.empty() && next_call_ <= tick_ * tick_factor_; ++next_call_)
+      any = scene_->call(next_call_, problem) || any;
+    return any;
+  }
 
   StepFigures step() override {
     const Stopwatch stopwatch;
@@ -36,21 +41,22 @@ class DetentPlay : public detent_zoo::Play {
     return figures;
   }
 
-  bool vary(uint32_t number) override {
-    const Vec3<Real> gravity = get_settings(scene_->world()).gravity;
-    Vec3<Real> stronger;
-    const auto set = [number](Real from, Real& to) {
-      return real_from_host(real_to_host(from) * (1 + number * 0x1p-16), to) == Status::ok;
+  bool vary(const detent_zoo::Variation& variation) override {
+    WorldDef def = get_settings(scene_->world());
+    const auto scale = [](Real& value, double factor) {
+      return real_from_host(real_to_host(value) * factor, value) == Status::ok;
     };
-    return set(gravity.x, stronger.x) && set(gravity.y, stronger.y) && set(gravity.z, stronger.z) &&
-           set_gravity(scene_->world(), stronger) == Status::ok;
+    tick_factor_ = variation.tick;
+    return scale(def.gravity.x, variation.gravity) && scale(def.gravity.y, variation.gravity) &&
+           scale(def.gravity.z, variation.gravity) && scale(def.tick, variation.tick) &&
+           set_settings(scene_->world(), def) == Status::ok;
   }
 
   void start_profile() override { profile_.attach(scene_->world()); }
   detent_test::StageTimes stages() const override { return profile_.times(); }
 
   Frame frame() const override { return scene_->frame(); }
-  uint32_t ticks() const override { return scene_->text().ticks; }
+  uint32_t ticks() const override { return static_cast<uint32_t>(scene_->text().ticks / tick_factor_); }
 
   std::string body_name(uint32_t index) const override {
     const std::vector<BodyId> bodies = scene_->bodies();
@@ -69,7 +75,8 @@ class DetentPlay : public detent_zoo::Play {
  private:
   StageProfile profile_;
   std::unique_ptr<OpenedScene> scene_;
-  uint32_t tick_ = 0;
+  double tick_factor_ = 1;
+  uint32_t tick_ = 0, next_call_ = 0;
 };
 
 std::unique_ptr<detent_zoo::Play> open_play(const std::string& path, detent_test::Ground ground, std::string& problem) {

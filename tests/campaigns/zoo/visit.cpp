@@ -40,12 +40,12 @@ double measured(const Figures& figures, const std::string& check) {
 }
 
 Verdict visit(const Entry& entry, const Engine& engine, const std::string& folder, detent_test::Ground ground,
-              uint32_t variation) {
+              const Variation& variation) {
   Verdict verdict;
   const std::unique_ptr<Play> play = engine.open(folder + "/" + entry.scene + ".json", ground, verdict.problem);
   if (play == nullptr) return verdict;
-  if (variation != 0 && !play->vary(variation)) {
-    verdict.problem = "its gravity cannot be varied";
+  if ((variation.gravity != 1 || variation.tick != 1) && !play->vary(variation)) {
+    verdict.problem = "its gravity or tick would be out of range";
     return verdict;
   }
   play->start_profile();

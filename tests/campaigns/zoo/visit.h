@@ -13,9 +13,8 @@ struct Verdict {
   std::string sunk_body, moved_body;  ///< the bodies that sank and moved most
   std::set<std::string> failed;       ///< the failed checks
 };
-/// `variation`: as Play::vary().
 Verdict visit(const Entry& entry, const Engine& engine, const std::string& folder,
-              detent_test::Ground ground = detent_test::Ground::own, uint32_t variation = 0);
+              detent_test::Ground ground = detent_test::Ground::own, const Variation& variation = {});
 
 /// The measured value of a check; for `rest`: relative to the limit.
 double measured(const Figures& figures, const std::string& check);

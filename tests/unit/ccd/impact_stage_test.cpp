@@ -516,6 +516,25 @@ DETENT_TEST(impact_stage, a_pair_without_contact_is_searched_whatever_the_contac
   }
 }
 
+/// Axes of faces and edges separate these boxes by less than the contact margin, but no points of their faces are as
+/// near. Two vertices are, 7.4 mm apart, and meet in the tick.
+DETENT_TEST(impact_stage, boxes_that_are_nearest_at_their_vertices_are_searched) {
+  Lab lab({2, 8, 0}, weightless());
+  BodyDef still;
+  still.type = BodyType::fixed;
+  still.shape = box(reals(0.110905, 0.0798147, 0.110905));
+  still.position = position(-0.871414, 0.089823, 0.879126);
+  still.rotation = rotation_near(detent_oracle::rotation_by({-0.00026, 0.66689, -0.00018}));
+  lab.add(still);
+  BodyDef moving;
+  moving.shape = box(reals(0.115036, 0.028027, 0.115036));
+  moving.position = position(-0.85677, 0.111375, 0.565964);
+  moving.rotation = rotation_near(detent_oracle::rotation_by({-0.30551, 0.73501, -0.74725}));
+  moving.linear_velocity = reals(-60 * 0.0056, -60 * 0.0043, 60 * 0.0055);
+  lab.add(moving);
+  EXPECT_EQ(lab.run(1).ccd.impacts, 1u);
+}
+
 DETENT_TEST(impact_stage, of_what_sleeps_only_what_is_struck_is_looked_at_and_it_strikes_others_in_turn) {
   // A row of sleeping bodies, each of which is reached only by the motion of the one before. The impact passes through
   // all of them in one tick.

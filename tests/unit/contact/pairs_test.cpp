@@ -75,8 +75,10 @@ void judge(const OraclePair& pair, const ContactGeometry& contact, double distan
       ++seen.apart;
     else if (!boxes || right.value < -error)
       ++seen.missed;
-    else if (detent_oracle::distance_of_boxes(a, b) < distance_max - error)
+    else if (detent_oracle::distance_of_boxes(a, b) < distance_max - error) {
       ++seen.missed_ahead;
+      seen.missed += contact.near ? 0 : 1;
+    }
     return;
   }
   ++seen.touching;

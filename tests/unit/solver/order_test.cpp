@@ -465,6 +465,33 @@ DETENT_TEST(substeps, of_which_half_would_do_become_fewer_by_one_notch_after_eig
   EXPECT_EQ(pile.choose(0), 2u);
 }
 
+/// Whether choose_substeps() lets the solver limit the warm start of this island.
+bool is_limited(Pile pile) {
+  pile.choose(0);
+  for (const BodyWork& body : pile.work) EXPECT_EQ(body.supports, pile.work[0].supports);
+  return pile.work[0].supports != 0;
+}
+
+DETENT_TEST(substeps, limit_the_warm_start_where_masses_differ_by_a_factor_of_eight) {
+  Pile pile(2, 1);
+  for (BodyProperties& body : pile.properties) body.mass = scaled(8);
+  EXPECT_FALSE(is_limited(pile));
+  pile.properties[1].mass = scaled(1.0625);
+  EXPECT_FALSE(is_limited(pile));
+  pile.properties[1].mass = scaled(1);
+  EXPECT_TRUE(is_limited(pile));
+  pile.properties[1].mass = scaled(64);
+  EXPECT_TRUE(is_limited(pile)) << "one is heavier, not lighter";
+  // The kinematic body is in no island, and is the second body of a contact.
+  Pile on_lift = pile;
+  on_lift.island.body_count = 2;
+  on_lift.properties[2].type = static_cast<uint32_t>(BodyType::kinematic);
+  EXPECT_FALSE(is_limited(on_lift));
+  Pile pair(1, 1);
+  pair.properties[1].mass = scaled(100);
+  EXPECT_FALSE(is_limited(pair)) << "one contact";
+}
+
 /// The permitted depth decides, except in a row that would buckle.
 DETENT_TEST(substeps, follow_the_penetration_that_is_permitted_at_rest) {
   for (const double permitted : {1.0 / 2048, 1.0 / 512, 1.0 / 150, 1.0 / 30, 1.0 / 8}) {

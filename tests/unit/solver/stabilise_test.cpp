@@ -53,6 +53,24 @@ double energy_of(Lab& lab, BodyId id) {
   return square / 2 + 9.81 * motion.position[1];
 }
 
+/// The fraction of its depth by which a box of 1 m leaves the ground in a substep.
+double fraction_corrected(double depth) {
+  WorldDef def;
+  def.substeps = 1;
+  Lab lab(k_room, def);
+  lab.add_ground();
+  const BodyId box = lab.add_box(0.5, 0, 0.5 - depth, 0);
+  lab.run(1);
+  return (lab.motion(box).position[1] - (0.5 - depth)) / depth;
+}
+
+DETENT_TEST(contact_solver, a_deep_contact_is_stiffer) {
+  const double at_rest = fraction_corrected(1.0 / 128);
+  EXPECT_NEAR(fraction_corrected(1.0 / 80), at_rest, 0.1 * at_rest);
+  EXPECT_GT(fraction_corrected(1.0 / 32), 1.25 * at_rest);
+  EXPECT_LT(fraction_corrected(1.0 / 32), 1);
+}
+
 DETENT_TEST(post_stabilisation, moves_bodies_apart_without_giving_them_speed) {
   WorldDef def;
   def.stabilisation = Stabilisation::post;
