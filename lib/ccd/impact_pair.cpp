@@ -149,7 +149,7 @@ bool climb_with(const SweptBody& a, const SweptBody& b, Fraction time, const Shr
   for (Real shrink_depth = cores.first; !(shrink_depth > last_shrink_depth(cores.extent));
        shrink_depth = next_shrink_depth(cores.extent, shrink_depth)) {
     ++meeting.tests;
-    if (shrink_depth > cores.first) meeting.climbed = true;
+    if (shrink_depth > cores.first) meeting.depth = max(meeting.depth, shrink_depth);
     if (!find.find(find.context, shrink_depth, found)) return false;
     // Cores that overlap have no normal.
     const bool now =
@@ -162,7 +162,7 @@ bool climb_with(const SweptBody& a, const SweptBody& b, Fraction time, const Shr
       // Cores that overlap at the last shrink depth also overlap at all smaller depths. The last depth is therefore
       // tested once, before the depths in between.
       if (looked_ahead || is_direction(found.normal)) continue;
-      looked_ahead = meeting.climbed = true;
+      looked_ahead = true;
       ++meeting.tests;
       if (!find.find(find.context, last_shrink_depth(cores.extent), found)) return false;
       if (found.outcome == ToiOutcome::clear || is_direction(found.normal)) continue;
@@ -172,6 +172,7 @@ bool climb_with(const SweptBody& a, const SweptBody& b, Fraction time, const Shr
     return true;
   }
   meeting.left = true;
+  meeting.depth = last_shrink_depth(cores.extent);
   if (cores.resolved && !(is_direction(found.normal) && is_parting(a, b, time, found))) meeting.stuck = true;
   return true;
 }

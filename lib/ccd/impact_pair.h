@@ -80,7 +80,7 @@ struct ShrunkenCores {
 struct Meeting {
   TimeOfImpact impact = {};
   uint32_t tests = 0;    ///< times of impact computed
-  bool climbed = false;  ///< a shrink depth beyond the first was used
+  Real depth = 0.0;      ///< largest shrink depth beyond the first that was used, m; 0: none was
   bool left = false;     ///< some parts overlap so deeply that they are not tested
   bool stuck = false;    ///< the pair collided in this tick and does not separate: it would pass through
 

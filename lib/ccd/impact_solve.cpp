@@ -115,18 +115,7 @@ Vec3<Real> fall_after(const ImpactStage& stage, uint32_t slot, Fraction time) {
 /// Returns a part of the speed, m/s, at which the rotations of both bodies can bring them together again in the rest of
 /// the tick. The part is 1/16 at the second impact of the pair, then twice as much each time, up to all of the speed.
 Real bend_speed(const ImpactStage& stage, const ImpactPair& pair) {
-  const uint32_t a = pair_low(pair.key), b = pair_high(pair.key);
-  const auto radius = [&](uint32_t slot) {
-    const BodyProperties& properties = stage.bodies.properties[slot];
-    return real_from_unit(properties.bounding_radius, properties.size_exponent);
-  };
-  const BodySweep &sweep_a = stage.sweep_of(a), &sweep_b = stage.sweep_of(b);
-  constexpr Real k_angle_max = 2.0;  // a larger rotation moves the points apart again
-  const Real angle_a = min(length(sweep_a.rotation_vector), k_angle_max),
-             angle_b = min(length(sweep_b.rotation_vector), k_angle_max);
-  const Real displacement = length(sweep_b.displacement - sweep_a.displacement);
-  const Real bend = angle_a * angle_a * radius(a) + angle_b * angle_b * radius(b) + (angle_a + angle_b) * displacement;
-  const Real part = sweep_part({{bend, k_zero, k_zero}, k_zero_vector}, k_whole_step - pair.time).displacement.x;
+  const Real part = sweep_part({{stage.bend_of(pair.key), k_zero, k_zero}, k_zero_vector}, k_whole_step - pair.time).displacement.x;
   const int power = (pair.impacts < 5 ? pair.impacts : 5) - 5;
   bool saturated = false;
   return multiply(scale_by_power(part, power), stage.tick_rate, saturated);

@@ -178,6 +178,8 @@ struct ImpactStage {
 #endif
   /// Tests the sweeps that have changed against all other bodies.
   void test_all_changed(Fraction time);
+  /// An estimate, m, of how far the rotations of both bodies bend the relative path of two of their points in the tick.
+  Real bend_of(uint64_t key) const;
   /// Whether the solver pushed the pair apart in this tick.
   bool is_pushed(uint64_t key) const;
 

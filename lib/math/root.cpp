@@ -165,8 +165,26 @@ bool normalise(const Vec3<Real>& v, Vec3<Unit>& n, Real& length_of_v) {
   return true;
 }
 #else
+namespace {
+
+/// As float_parts(), but with subnormals as they are.
+template <class Float>
+FloatParts float_parts_with_subnormals(Float value) {
+  using Format = FloatFormat<Float>;
+  FloatParts parts = float_parts(value);
+  const uint64_t bits = __builtin_bit_cast(typename Format::Bits, value);
+  const uint64_t fraction = bits & ((uint64_t{1} << Format::k_fraction_bits) - 1);
+  if (parts.mantissa != 0 || fraction == 0) return parts;
+  const int shift = Format::k_fraction_bits + 1 - bit_length_64(fraction);
+  parts.mantissa = fraction << shift;
+  parts.exponent = 1 - Format::k_bias - Format::k_fraction_bits - shift;
+  return parts;
+}
+
+}  // namespace
+
 float square_root_portable(float a) {
-  const FloatParts parts = float_parts(a);
+  const FloatParts parts = float_parts_with_subnormals(a);
   if (parts.mantissa == 0) return a;
   // mantissa 2^shift in [2^62, 2^64) with an even exponent: the root has 32 bits, and a
   // nonzero remainder sets a lower sticky bit.
@@ -177,7 +195,7 @@ float square_root_portable(float a) {
 }
 
 double square_root_portable(double a) {
-  const FloatParts parts = float_parts(a);
+  const FloatParts parts = float_parts_with_subnormals(a);
   if (parts.mantissa == 0) return a;
   const int odd = parts.exponent & 1;
   const uint64_t value = parts.mantissa << odd;  // [2^52, 2^54) with an even exponent

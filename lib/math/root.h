@@ -55,7 +55,8 @@ DETENT_PASSING inline Real length(const Vec3<Real>& v) { return Real::from_raw(r
 bool normalise(const Vec3<Unit>& v, Vec3<Unit>& n, Unit& length);
 bool normalise(const Vec3<Real>& v, Vec3<Unit>& n, Real& length);
 #else
-/// Correctly rounded, to nearest, ties to even, by integer arithmetic alone. Range: a >= 0 and not NaN.
+/// Correctly rounded, to nearest, ties to even, by integer arithmetic alone, also for subnormals. Range: a >= 0 and not
+/// NaN.
 float square_root_portable(float a);
 double square_root_portable(double a);
 

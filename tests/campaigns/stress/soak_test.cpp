@@ -142,13 +142,13 @@ struct Ending {
   uint64_t digest;
 };
 #if defined(DETENT_FX64)
-constexpr Ending k_endings[] = {{10000, 0xc9e4cd02874caf06}, {1000000, 0xabdd7890517b1568}};
+constexpr Ending k_endings[] = {{10000, 0x461b69517bfd8c7e}, {1000000, 0x691fc7eb45772aec}};
 #elif defined(DETENT_FX32)
 constexpr Ending k_endings[] = {{10000, 0xa92f48a65c20cae3}, {1000000, 0x672c03dddaccb074}};
 #elif defined(DETENT_F32)
-constexpr Ending k_endings[] = {{10000, 0xd7f0b7eb4edbbcdd}};
+constexpr Ending k_endings[] = {{10000, 0x9f4b1356e7cffe74}};
 #else
-constexpr Ending k_endings[] = {{10000, 0x0c3d24323029c33e}};
+constexpr Ending k_endings[] = {{10000, 0x07be288a00daa5a6}};
 #endif
 
 /// A million ticks if DETENT_FULL is set.

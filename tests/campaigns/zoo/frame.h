@@ -87,8 +87,9 @@ class Play {
   /// Makes the calls before the next tick. Returns whether there were any; on failure sets `problem`.
   virtual bool call(std::string& problem) = 0;
   virtual StepFigures step() = 0;
-  /// Changes the settings, before the first tick. Returns false if they would leave their range.
-  virtual bool vary(const Variation& variation) = 0;
+  /// Changes the settings, before the first tick. Returns false if they would leave their range, or if the engine cannot
+  /// change them.
+  virtual bool vary(const Variation&) { return false; }
   /// From here on stages() counts, ns.
   virtual void start_profile() {}
   virtual detent_test::StageTimes stages() const { return {}; }

@@ -72,6 +72,24 @@ DETENT_TEST(impact_stage, a_pair_that_its_contacts_keep_apart_is_not_searched) {
 /// A scene at another scale, with gravity in proportion, takes the same course, and so the same searches. In fixed
 /// point the roundings differ, and the courses of some drops part: all drops are compared in sum, the others one by
 /// one.
+/// Two boxes touch along an edge, without a contact. One of them slides along the edge, or rotates off it.
+DETENT_TEST(impact_stage, a_pair_that_touches_is_tested_again_only_if_it_can_come_back) {
+  uint32_t tests[2];
+  for (const bool rotates : {false, true}) {
+    Lab lab({2, 8, 0}, weightless());
+    BodyDef def;
+    def.shape = box(reals(0.5, 0.5, 0.5));
+    lab.add(def);
+    def.position = position(1, 1, 0);
+    def.linear_velocity = reals(0, 0, 0.01);
+    if (rotates) def.angular_velocity = reals(0, 0, 10);
+    lab.add(def);
+    tests[rotates] = lab.run(1).ccd.tests;
+  }
+  EXPECT_EQ(tests[0], 3u);  // with the whole shapes, the smallest cores and the largest ones
+  EXPECT_GT(tests[1], 3u);
+}
+
 DETENT_TEST(impact_stage, bodies_of_all_sizes_are_kept_apart_alike) {
   const auto searches = [](double scale, double height) {
     WorldDef world;

@@ -134,8 +134,8 @@ DETENT_TEST(sweep, reciprocal_roots_of_all_arguments_are_within_their_bound) {
 #else
 DETENT_TEST(sweep, portable_roots_of_all_floats_are_correctly_rounded) {
 #if defined(DETENT_F32)
-  Line line{k_config_name, 28, "square_root_portable", "all positive normal floats", "to nearest, ties to even", "ulp"};
-  for (uint64_t bits = 0x800000; bits < 0x7f800000; bits += stride()) {
+  Line line{k_config_name, 28, "square_root_portable", "all positive floats", "to nearest, ties to even", "ulp"};
+  for (uint64_t bits = 1; bits < 0x7f800000; bits += stride()) {
     const float a = __builtin_bit_cast(float, static_cast<uint32_t>(bits));
     const float root = square_root_portable(a);
     ASSERT_EQ(root, sqrtf(a)) << a;  // the host's instruction, IEEE 754
