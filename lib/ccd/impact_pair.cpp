@@ -149,7 +149,7 @@ bool climb_with(const SweptBody& a, const SweptBody& b, Fraction time, const Shr
   for (Real shrink_depth = cores.first; !(shrink_depth > last_shrink_depth(cores.extent));
        shrink_depth = next_shrink_depth(cores.extent, shrink_depth)) {
     ++meeting.tests;
-    if (shrink_depth > cores.first) meeting.depth = max(meeting.depth, shrink_depth);
+    if (shrink_depth > cores.first && shrink_depth > meeting.depth) meeting.depth = shrink_depth;
     if (!find.find(find.context, shrink_depth, found)) return false;
     // Cores that overlap have no normal.
     const bool now =

@@ -151,27 +151,26 @@ Real free_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const Contac
 Real first_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Real& clearance) {
   const Real shrink_depth = free_shrink_depth(stage, key, contacts, clearance);
   if (!jointed(stage, pair_low(key)) && !jointed(stage, pair_high(key))) return shrink_depth;
-  const Real held =
-      max(shrink_depth, scale_by_power(stage.extent_of(key), -2) + scale_by_power(stage.extent_of(key), -3));
+  const Real extent = stage.extent_of(key);
+  const Real held = max(shrink_depth, scale_by_power(extent, -2) + scale_by_power(extent, -3));
   clearance += held - shrink_depth;
   return held;
 }
 
 /// The time of the next test of a pair that was found touching `tests` times; 1 for never.
 Fraction next_test_after(Fraction time, uint32_t tests) {
-  if (tests == 0 || tests > k_tests_max) return k_whole_step;
-  const uint32_t power = tests < 10 ? tests - 1 : 9;
+  if (tests >= k_tests_max) return k_whole_step;
+  const uint32_t power = tests < 9 ? tests : 9;
   const int64_t after = (int64_t{1} << (Fraction::k_frac + k_test_power)) << power;
   return after < k_whole_step.raw - time.raw ? Fraction::from_raw(time.raw + after) : k_whole_step;
 }
 
-/// Whether a pair that was found touching is tested again later in the tick: the cores that separate it are much smaller
-/// than the shapes, or rotation may bring it together again. Otherwise it can overlap by at most 1/16 of the extent at
-/// the end of the tick, mostly far less. `depth`: Meeting::depth.
+/// Whether a pair that was found touching is tested again later in the tick: the cores that separate it are much
+/// smaller than the shapes, or rotation may bring it together again. Otherwise it can overlap by at most 1/16 of the
+/// extent at the end of the tick, mostly far less. `depth`: Meeting::depth.
 bool must_be_tested_again(const ImpactStage& stage, uint64_t key, Real depth) {
   if (depth == k_zero) return false;
-  const Real extent = stage.extent_of(key);
-  return depth > scale_by_power(extent, -5) || stage.bend_of(key) > scale_by_power(extent, -7);
+  return max(scale_by_power(depth, -2), stage.bend_of(key)) > scale_by_power(stage.extent_of(key), -7);
 }
 
 /// A direction that may separate a pair: the normal of its contact. Returns zero if it has no contact. Also returns
@@ -370,15 +369,16 @@ ImpactPair* ImpactStage::add_entry(uint64_t key) {
 }
 
 Real ImpactStage::bend_of(uint64_t key) const {
-  const uint32_t a = pair_low(key), b = pair_high(key);
-  const auto radius = [&](uint32_t slot) {
-    return real_from_unit(bodies.properties[slot].bounding_radius, bodies.properties[slot].size_exponent);
-  };
-  constexpr Real k_angle_max = 2.0;  // a larger rotation moves the points apart again
-  const Real angle_a = min(length(sweep_of(a).rotation_vector), k_angle_max),
-             angle_b = min(length(sweep_of(b).rotation_vector), k_angle_max);
-  const Real displacement = length(sweep_of(b).displacement - sweep_of(a).displacement);
-  return angle_a * angle_a * radius(a) + angle_b * angle_b * radius(b) + (angle_a + angle_b) * displacement;
+  const uint32_t slots[2] = {pair_low(key), pair_high(key)};
+  Real bend = k_zero, angles = k_zero;
+  for (const uint32_t slot : slots) {
+    constexpr Real k_angle_max = 2.0;  // a larger rotation moves the points apart again
+    const BodyProperties& properties = bodies.properties[slot];
+    const Real angle = min(length(sweep_of(slot).rotation_vector), k_angle_max);
+    bend += angle * angle * real_from_unit(properties.bounding_radius, properties.size_exponent);
+    angles += angle;
+  }
+  return bend + angles * length(sweep_of(slots[1]).displacement - sweep_of(slots[0]).displacement);
 }
 
 bool ImpactStage::is_pushed(uint64_t key) const {
@@ -418,9 +418,9 @@ void ImpactStage::test(uint64_t key, Fraction time, Real shrink_depth, ImpactPai
     }
     if (impact.outcome == ToiOutcome::clear) return;
   }
-  const uint32_t tests_before = entry == nullptr ? 0 : entry->tests;
-  const Fraction next_test =
-      next_test_after(time, must_be_tested_again(*this, key, meeting.depth) ? 1 + tests_before : 0);
+  const Fraction next_test = must_be_tested_again(*this, key, meeting.depth)
+                                 ? next_test_after(time, entry == nullptr ? 0 : entry->tests)
+                                 : k_whole_step;
   const bool meets = impact.outcome != ToiOutcome::clear,
              tests = next_test < k_whole_step && shrink_depth == k_zero && !is_spent();
   if (!meets && !tests) return;

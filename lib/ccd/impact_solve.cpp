@@ -115,7 +115,7 @@ Vec3<Real> fall_after(const ImpactStage& stage, uint32_t slot, Fraction time) {
 /// Returns a part of the speed, m/s, at which the rotations of both bodies can bring them together again in the rest of
 /// the tick. The part is 1/16 at the second impact of the pair, then twice as much each time, up to all of the speed.
 Real bend_speed(const ImpactStage& stage, const ImpactPair& pair) {
-  const Real part = sweep_part({{stage.bend_of(pair.key), k_zero, k_zero}, k_zero_vector}, k_whole_step - pair.time).displacement.x;
+  const Real part = part_of(stage.bend_of(pair.key), k_whole_step - pair.time);
   const int power = (pair.impacts < 5 ? pair.impacts : 5) - 5;
   bool saturated = false;
   return multiply(scale_by_power(part, power), stage.tick_rate, saturated);

@@ -165,7 +165,7 @@ void ImpactStage::stop(uint32_t slot, Fraction time) {
   sweep.displacement = sweep.rotation_vector = k_zero_vector;
   sweep.marks |= k_mark_stopped;
   ++report.bodies_stopped;
-  const Real lost = sweep_part({{Real(1.0), k_zero, k_zero}, k_zero_vector}, k_whole_step - time).displacement.x;
+  const Real lost = part_of(Real(1.0), k_whole_step - time);
 #if DETENT_TASKS
   if (warp != nullptr) own_of(slot)->moved_untested = 1;
   if (warp != nullptr)

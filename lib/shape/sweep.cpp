@@ -98,8 +98,6 @@ uint32_t sweep_end_position(BodyPose& pose, const Sweep& sweep) {
   return clamped;
 }
 
-namespace {
-
 #if DETENT_FIXED
 Real part_of(Real whole, Fraction part) {
   return Real::from_raw(Int128::product(whole.raw, part.raw).round_shift(Fraction::k_frac));
@@ -107,6 +105,8 @@ Real part_of(Real whole, Fraction part) {
 #else
 Real part_of(Real whole, Fraction part) { return whole * float_from_integer<Real>(part.raw, -Fraction::k_frac); }
 #endif
+
+namespace {
 
 #if defined(DETENT_F32)
 /// Computes whole * part exactly: over a long displacement, the error of a float exceeds the resolution of positions.

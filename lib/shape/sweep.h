@@ -36,6 +36,9 @@ Quat sweep_end_rotation(const Quat& start, const Sweep& sweep);
 /// Returns the number of components that were clamped to Coord's range.
 uint32_t sweep_end_position(BodyPose& pose, const Sweep& sweep);
 
+/// The fraction `part` of a number. Rounding: to nearest.
+Real part_of(Real whole, Fraction part);
+
 /// The motion up to the fraction `part` of the step. For the whole step it is the sweep itself, bit for bit.
 /// Rounding: to nearest.
 Sweep sweep_part(const Sweep& sweep, Fraction part);

@@ -19,7 +19,7 @@ int split_command_line() {
     char* bytes;
     uint32_t byte_count;
   } block = {command_line, k_command_line_bytes_max};
-  if (semihosting(Semihosting::command_line, &block) != 0) machine_panic("the command line is longer than 512 bytes");
+  if (semihosting(Semihosting::command_line, &block) != 0) machine_panic("command line longer than 512 bytes");
   int count = 0;
   char* next = command_line;
   for (char* end = command_line; *end != '\0'; ++end) {
@@ -42,7 +42,7 @@ void machine_start() {
   }
   const int argument_count = split_command_line();
   const int code = machine_main(argument_count, arguments);
-  if (machine_stack_used() >= machine_memory().stack_bytes) machine_panic("the stack ran into the data");
+  if (machine_stack_used() >= machine_memory().stack_bytes) machine_panic("stack overflow");
   machine_exit(code);
 }
 
@@ -50,5 +50,5 @@ void machine_fault(uint32_t address) {
   machine_print("fault at 0x");
   print_hex(address, 8);
   machine_print("\n");
-  machine_panic("the processor refused an instruction");
+  machine_panic("processor fault");
 }
