@@ -79,10 +79,10 @@ struct ShrunkenCores {
 /// The earliest impact of a pair.
 struct Meeting {
   TimeOfImpact impact = {};
-  uint32_t tests = 0;    ///< times of impact computed
-  Real depth = 0.0;      ///< largest shrink depth beyond the first that was used, m; 0: none was
-  bool left = false;     ///< some parts overlap so deeply that they are not tested
-  bool stuck = false;    ///< the pair collided in this tick and does not separate: it would pass through
+  uint32_t tests = 0;  ///< times of impact computed
+  Real depth = 0.0;    ///< largest shrink depth beyond the first that was used, m; 0: none was
+  bool left = false;   ///< some parts overlap so deeply that they are not tested
+  bool stuck = false;  ///< the pair collided in this tick and does not separate: it would pass through
 
   Meeting() {
     impact.outcome = ToiOutcome::clear;
