@@ -157,7 +157,7 @@ Real first_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const Conta
   return held;
 }
 
-/// The time of the next test of a pair that was found touching `tests` times; 1 for never.
+/// The time of the next test of a pair that is found touching, after `tests` such tests in the tick; 1 for never.
 Fraction next_test_after(Fraction time, uint32_t tests) {
   if (tests >= k_tests_max) return k_whole_step;
   const uint32_t power = tests < 9 ? tests : 9;
