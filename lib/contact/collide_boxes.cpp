@@ -318,12 +318,13 @@ Segment support_edge(const PairShape& box, int edge, const Vec3<Unit>& direction
 /// Replaces the contact of two crossing edges by the contact of the face whose normal is nearest to `normal`. Crossing
 /// edges touch in one point, and this point can jump from one side of the face to the other between two ticks. Returns
 /// false, with `manifold` unchanged, in these cases, where p is preference_of() of the boxes: no face normal is within
-/// 2^-3 rad; the edges are more than p apart; the separation along the face normal is more than 4 p below that of the
-/// edges; the face has fewer than two contact points; its deepest point is more than p deeper, or more than p / 16
-/// shallower, than the edges.
+/// 2^-3 rad; the edges are more than p apart; the separation along the face normal is below that of the edges by more
+/// than 4 p and more than k_leaning_room, which matters if an edge is much longer than the other box; the face has
+/// fewer than two contact points; its deepest point is more than p deeper, or more than p / 16 shallower, than the
+/// edges.
 __attribute__((noinline)) bool collide_leaning_face(const PairFrame& frame, const Vec3<Unit>& normal, Unit separation,
                                                     PairManifold& manifold) {
-  constexpr Unit k_leaning = 1.0 - 0x1p-7;
+  constexpr Unit k_leaning = 1.0 - 0x1p-7, k_leaning_room = 0x1p-7;
   Unit most = k_leaning;
   int face = -1;
   for (int i = 0; i < 6; ++i) {
@@ -337,7 +338,8 @@ __attribute__((noinline)) bool collide_leaning_face(const PairFrame& frame, cons
   const Unit preference = preference_of(half_of(frame.a.size), half_of(frame.b.size));
   const AxisTable table = table_of(frame);
   const Unit along_face = is_a ? face_a_separation(table, face) : face_b_separation(table, face - 3);
-  if (separation > preference || along_face < separation - scale_by_power(preference, 2)) return false;
+  const Unit room = max(scale_by_power(preference, 2), k_leaning_room);
+  if (separation > preference || along_face < separation - room) return false;
   PairManifold found;
   collide_face(is_a ? frame.a : frame.b, is_a ? frame.b : frame.a, is_a ? face : face - 3, is_a, frame, found);
   Unit deepest = 1.0;

@@ -20,6 +20,15 @@ uint32_t feature_of(uint32_t feature, const uint32_t (&corner)[3]) {
   return kept | (name & 0x3ff) | (name >> 10 & 0xff) << 24;
 }
 
+/// The angle up to which normals of triangles count as one is 2^-k rad; this function returns k. The angle is about
+/// 1/32 of the half thickness over the bounding radius. So at the ends of a long shape, triangles differ from their
+/// common plane by about a 32nd of the half thickness.
+int same_power_of(const Convex& shape, int64_t half_thickness) {
+  constexpr int k_least = 5, k_most = 12;
+  const int power = k_least + shape.exponent - raw_exponent_above(half_thickness);
+  return power < k_least ? k_least : power > k_most ? k_most : power;
+}
+
 }  // namespace
 
 void collide_mesh(const Terrain& terrain, const CollisionBody& ground, const CollisionBody& body, const Convex& shape,
@@ -37,7 +46,7 @@ void collide_mesh(const Terrain& terrain, const CollisionBody& ground, const Col
   }
   place.middle = rotate(place.rotation, middle);
   const TerrainPair pair(terrain, place, shape, rules);
-  TerrainManifolds found(pair.half_thickness());
+  TerrainManifolds found(pair.half_thickness(), same_power_of(shape, pair.half_thickness()));
   terrain.walk([&](const GridBox& box) { return meet(box, pair.box()); },
                [&](uint32_t triangle) {
                  TerrainTouch touch;

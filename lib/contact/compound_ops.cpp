@@ -74,6 +74,8 @@ int64_t half_thickness_of(const BodyProperties& a, const BodyProperties& b) {
   return of_a < of_b ? of_a : of_b;
 }
 
+constexpr int k_same_power = 5;  ///< normals of parts at most 2^-5 rad apart count as one
+
 /// Collects the contacts of pairs of parts. Contact points in one plane form one contact, whichever parts they belong
 /// to.
 class PartContacts {
@@ -82,7 +84,7 @@ class PartContacts {
       : swapped_(is_half_space(b.properties)),
         ground_(swapped_ ? b : a),
         body_(swapped_ ? a : b),
-        found_(half_thickness_of(a.properties, b.properties)) {}
+        found_(half_thickness_of(a.properties, b.properties), k_same_power) {}
 
   /// `part`: as ContactGeometryPoint::part. `contact.key`: distinct among the contacts of a part.
   void add(const TerrainContact& contact, uint32_t part) {
@@ -98,7 +100,6 @@ class PartContacts {
     touch.manifold.turns = geometry.turns;
     touch.manifold.normal = round_shift(raw_offset(geometry.normal, 0, known), k_metre_bits - 30);
     touch.manifold.count = geometry.count;
-    touch.deepest = INT64_MAX;
     for (uint32_t i = 0; i < geometry.count; ++i) {
       const ContactGeometryPoint& point = geometry.point[i];
       Vec64 separation = {0, 0, 0};
@@ -107,8 +108,8 @@ class PartContacts {
                                  raw_offset(point.arm_b, body_.properties.size_exponent, known),
                                  separation.x,
                                  name_of_part(part ^ contact.key, point.feature)};
-      touch.deepest = separation.x < touch.deepest ? separation.x : touch.deepest;
     }
+    touch.deepest = least_separation(touch.manifold);
     touch.manifold.capped = !known;
     found_.add(touch);
   }

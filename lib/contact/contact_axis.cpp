@@ -10,11 +10,6 @@ constexpr int32_t k_push = 256;  ///< ulps; an overlap deep enough to have a rel
 
 constexpr int64_t k_rounded = 1024;  ///< ulps; more than the errors of gjk() and of the support points
 
-/// Returns the unit vector v (Q30) times `length`, in the unit of `length`.
-Vec32 scaled(const Vec32& v, int64_t length) {
-  return round_shift(Vec64{v.x * length, v.y * length, v.z * length}, 30);
-}
-
 ContactAxis axis_of(const Penetration& found) {
   return {found.normal, -int64_t{found.depth}, found.point_a, found.point_b, found.capped};
 }
@@ -24,7 +19,7 @@ ContactAxis axis_of(const Penetration& found) {
 /// there. Returns false, with `axis` unchanged, if the cores do not overlap even then.
 bool axis_by_pushing(const RestingPair& pair, const Vec32& normal, int32_t distance, ContactAxis& axis) {
   const int64_t push = int64_t{distance} + k_push;
-  const Vec32 offset = subtract(pair.offset, scaled(normal, push));
+  const Vec32 offset = subtract(pair.offset, scaled_vector(normal, push));
   Simplex simplex;
   if (gjk(pair.a, pair.b, offset, simplex, {}).outcome != GjkOutcome::overlap) return false;
   axis = axis_of(penetration(pair.a, pair.b, offset, simplex));
@@ -73,8 +68,8 @@ bool axis_of_smaller_cylinders(const RestingPair& pair, ContactAxis& axis) {
   const int64_t separation = dot(normal, subtract(add(pair.offset, to), from)) >> 30;
   if (separation < found.lower - a.less() - b.less() - k_rounded) return false;
   const NearestPoints nearest = nearest_points(a.placed(), b.placed(), simplex);
-  axis = {normal, separation, add(nearest.on_a, scaled(normal, a.less())),
-          subtract(nearest.on_b, scaled(normal, b.less())), false};
+  axis = {normal, separation, add(nearest.on_a, scaled_vector(normal, a.less())),
+          subtract(nearest.on_b, scaled_vector(normal, b.less())), false};
   return true;
 }
 
@@ -99,9 +94,9 @@ bool find_contact_axis(const RestingPair& pair, int32_t above, DistanceCache* ca
     const Vec32 offset = subtract(add(pair.offset, axis.point_b), axis.point_a);
     const int64_t height = dot(axis.normal, offset) >> 30;
     if (pair.a.convex->type == ShapeType::half_space) {
-      axis.point_a = subtract(add(pair.offset, axis.point_b), scaled(axis.normal, height));
+      axis.point_a = subtract(add(pair.offset, axis.point_b), scaled_vector(axis.normal, height));
     } else {
-      axis.point_b = subtract(add(axis.point_a, scaled(axis.normal, height)), pair.offset);
+      axis.point_b = subtract(add(axis.point_a, scaled_vector(axis.normal, height)), pair.offset);
     }
   }
   return true;

@@ -183,12 +183,9 @@ uint32_t Builder::name_on_axis(const Half& half) {
   return half.edge_name;
 }
 
-/// Adds the contact point on the axis itself, unless a point with the same pair of features already exists.
+/// Adds the contact point on the axis itself.
 void Builder::add_on_axis(const Vec32& normal, int64_t separation, BlockManifold& manifold) const {
   const uint32_t on_a = name_on_axis(half_a_), on_b = name_on_axis(half_b_);
-  for (uint32_t i = 0; i < manifold.count; ++i) {
-    if (manifold.point[i].feature == feature_pair(on_a, on_b)) return;
-  }
   const Vec32 &a = axis_.point_a, &b = axis_.point_b, &offset = pair_.offset;
   const auto twice = [](int32_t on_a_core, int32_t on_b_core, int32_t shift) {
     return int64_t{on_a_core} + on_b_core + shift;
@@ -217,16 +214,19 @@ bool Builder::fill(const Reference& reference, bool reference_is_a, const Featur
   const int64_t height = reference.height_of(nearest);
   const bool missed = height + drop_ < choice[deepest].w && (!only_over_ || reference.holds(nearest));
   const int left_out = missed && choice.count() == 4 ? nearest_to(reference.over(nearest), choice) : -1;
+  if (missed) add_on_axis(normal, pair_.metres(height) - radii, manifold);
   for (int i = 0; i < choice.count(); ++i) {
     const AreaPoint& point = choice[i];
     const int64_t separation = pair_.metres(point.w) - radii;
     if (i == left_out || separation > rules_.margin) continue;
     const uint32_t on_reference = reference.name_on_reference(point);
     const uint32_t on_incident = reference.name_on_incident(other.placed, incident, point);
-    add_point(normal, reference.twice_middle(point), separation, reference_is_a ? on_reference : on_incident,
-              reference_is_a ? on_incident : on_reference, manifold);
+    const uint32_t on_a = reference_is_a ? on_reference : on_incident;
+    const uint32_t on_b = reference_is_a ? on_incident : on_reference;
+    // Features are distinct: the point on the axis, which is deeper, may have the same.
+    if (!missed || manifold.point[0].feature != feature_pair(on_a, on_b))
+      add_point(normal, reference.twice_middle(point), separation, on_a, on_b, manifold);
   }
-  if (missed) add_on_axis(normal, pair_.metres(height) - radii, manifold);
   if (manifold.count > 0) manifold.normal = normal;
   return manifold.count > 0;
 }
@@ -254,11 +254,14 @@ bool Builder::build_on_face(BlockManifold& manifold) const {
 
 /// Finds the contact on a face that is slightly tilted against the axis. Crossing edges would instead touch in one
 /// point, which can jump from one side of the face to the other between two ticks. The cores must be at most
-/// preference_ apart. The face normal must be within 2^-3 rad of the axis, and the separation along it smaller by at
-/// most 4 preference_. The face must have at least two points. The separation of its deepest point must be larger by at
-/// most drop_, or smaller by at most preference_, than that along the axis.
+/// preference_ apart. The face normal must be within 2^-3 rad of the axis. The separation along it must be smaller by
+/// at most 4 preference_ or, which matters if an edge is much longer than the other core, k_leaning_room. The face must
+/// have at least two points. The separation of its deepest point must be larger by at most drop_, or smaller by at most
+/// preference_, than that along the axis.
 __attribute__((noinline)) bool Builder::build_on_leaning_face(BlockManifold& manifold) const {
   constexpr int64_t k_leaning = (int64_t{1} << 60) - (int64_t{1} << 53);  // 2^-3 rad
+  constexpr int64_t k_leaning_room = k_one >> 7;
+  const int64_t room = 4 * preference_ > k_leaning_room ? 4 * preference_ : k_leaning_room;
   const int64_t radii = pair_.radius_a + pair_.radius_b;
   const int64_t least = pair_.metres(axis_.separation - preference_) - radii;
   const int64_t most = pair_.metres(axis_.separation + drop_) - radii;
@@ -269,16 +272,14 @@ __attribute__((noinline)) bool Builder::build_on_leaning_face(BlockManifold& man
     Feature face, incident;
     // build_on_face() has searched for the face.
     if (half.face_name >> 10 != static_cast<uint32_t>(FeatureType::face)) continue;
-    if (dot(half.face_normal, half.outward) < k_leaning ||
-        !parts_as_well(half, other, half.face_normal, 4 * preference_) || !half.find_face(face))
+    if (dot(half.face_normal, half.outward) < k_leaning || !parts_as_well(half, other, half.face_normal, room) ||
+        !half.find_face(face))
       continue;
     find_incident(other, negate(face.normal), incident);
     const Reference reference(half.placed, half.centre, face, face.normal, radius_in_block(other.placed));
     BlockManifold found = {};
     if (!fill(reference, is_a, incident, found) || found.count < 2) continue;
-    int64_t deepest = found.point[0].separation;
-    for (uint32_t i = 1; i < found.count; ++i)
-      deepest = found.point[i].separation < deepest ? found.point[i].separation : deepest;
+    const int64_t deepest = least_separation(found);
     if (deepest < least || deepest > most) continue;
     found.capped = manifold.capped;
     found.leans = true;
@@ -360,6 +361,17 @@ void Builder::build_over_face(const Feature& face, BlockManifold& manifold) {
 
 }  // namespace
 
+__attribute__((noinline)) uint32_t deepest_point(const BlockManifold& manifold) {
+  uint32_t deepest = 0;
+  for (uint32_t i = 1; i < manifold.count; ++i)
+    deepest = manifold.point[i].separation < manifold.point[deepest].separation ? i : deepest;
+  return deepest;
+}
+
+__attribute__((noinline)) int64_t least_separation(const BlockManifold& manifold) {
+  return manifold.count == 0 ? INT64_MAX : manifold.point[deepest_point(manifold)].separation;
+}
+
 __attribute__((noinline)) void find_contact_points(const RestingPair& pair, const ContactRules& rules,
                                                    DistanceCache* cache, BlockManifold& manifold) {
   manifold = {};
@@ -374,9 +386,7 @@ __attribute__((noinline)) void contact_points_over_face(const RestingPair& pair,
   manifold = {};
   const Vec32 nearest = support(pair.b, negate(face.normal)).point;
   const int64_t height = dot(face.normal, subtract(add(pair.offset, nearest), face.point[0])) >> 30;
-  const Vec32 foot =
-      subtract(add(pair.offset, nearest),
-               round_shift(Vec64{face.normal.x * height, face.normal.y * height, face.normal.z * height}, 30));
+  const Vec32 foot = subtract(add(pair.offset, nearest), scaled_vector(face.normal, height));
   const ContactAxis axis = {face.normal, height, foot, nearest, false};
   Builder(pair, axis, rules_of(margin, reduction)).build_over_face(face, manifold);
 }

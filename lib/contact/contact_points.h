@@ -27,6 +27,11 @@ struct BlockManifold {
   BlockPoint point[k_contact_points_max];
 };
 
+/// Index of the point with the least separation; 0 if there are no points.
+uint32_t deepest_point(const BlockManifold& manifold);
+/// The least separation of the points, 2^-46 m; INT64_MAX if there are none.
+int64_t least_separation(const BlockManifold& manifold);
+
 /// The rules by which contact points are found. Lengths in 2^-46 m.
 struct ContactRules {
   int64_t margin;  ///< contact margin: the greatest separation of a point

@@ -9,8 +9,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int64_t k_same_cosine = (int64_t{1} << 60) - (int64_t{1} << 49);     // 2^-5 rad
 constexpr int k_plane_power = 4;  ///< planes at most 2^-4 of the half thickness apart count as one plane
+constexpr int32_t k_equal_cosine = (1 << 28) - (1 << 3);  // Q28; 2^-12 rad
 constexpr uint32_t k_edge_key = 0x80000000u;
 
 /// Whether a group with these values is kept rather than another one: doubtful groups go first, then the shallowest.
@@ -33,8 +33,12 @@ TerrainManifolds::Group* TerrainManifolds::group_for(const TerrainTouch& touch, 
   const Vec32& normal = touch.manifold.normal;
   for (uint32_t i = 0; i < count_; ++i) {
     Group& group = group_[i];
-    const int64_t cosine = dot(group.normal, normal), apart = plane - group.plane;
-    if (cosine >= k_same_cosine && (apart < 0 ? -apart : apart) <= size_ >> k_plane_power) return &group;
+    const int32_t cosine = static_cast<int32_t>(dot(group.normal, normal) >> 32);
+    const int64_t apart = plane - group.plane;
+    if (cosine >= (touch.on_face == group.on_face ? same_cosine_ : k_equal_cosine) &&
+        (apart < 0 ? -apart : apart) <= size_ >> k_plane_power) {
+      return &group;
+    }
   }
   Group* fresh = &group_[count_];
   if (count_ == k_terrain_manifolds_max) {
@@ -57,16 +61,14 @@ TerrainManifolds::Group* TerrainManifolds::group_for(const TerrainTouch& touch, 
   fresh->deepest = INT64_MAX;
   fresh->first = touch.triangle;
   fresh->doubtful = true;
+  fresh->on_face = touch.on_face;
   return fresh;
 }
 
 void TerrainManifolds::add(const TerrainTouch& touch) {
   const BlockManifold& manifold = touch.manifold;
   capped_ = capped_ || manifold.capped;
-  uint32_t deepest = 0;
-  for (uint32_t i = 1; i < manifold.count; ++i)
-    deepest = manifold.point[i].separation < manifold.point[deepest].separation ? i : deepest;
-  const BlockPoint& point = manifold.point[deepest];
+  const BlockPoint& point = manifold.point[deepest_point(manifold)];
   const int64_t plane = along(point.from_b, manifold.normal) - point.separation / 2;
   if (Group* group = group_for(touch, plane); group != nullptr) join(touch, plane, *group);
 }

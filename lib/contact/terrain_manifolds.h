@@ -24,12 +24,14 @@ struct TerrainManifold {
 };
 
 /// Collects the touches of a shape, triangle by triangle or part by part, into a few manifolds: all touches in one
-/// plane form one manifold. Touches are added one at a time, and their number is not limited. The contact points in one
-/// plane must have distinct features.
+/// plane form one manifold. A touch on a face and one at an edge are in one plane only if their normals are equal.
+/// Touches are added one at a time, and their number is not limited. The contact points in one plane must have distinct
+/// features.
 class TerrainManifolds {
  public:
-  /// `size`: the shape's half thickness, 2^-46 m.
-  explicit TerrainManifolds(int64_t size) : size_(size) {}
+  /// `size`: the shape's half thickness, 2^-46 m. Normals at most 2^-`same_power` rad apart count as one.
+  TerrainManifolds(int64_t size, int same_power)
+      : size_(size), same_cosine_(k_one_cosine - (k_one_cosine >> (2 * same_power + 1))) {}
   void add(const TerrainTouch& touch);
   /// Forms the manifolds, in ascending order of key, and returns their count.
   uint32_t finish();
@@ -41,6 +43,7 @@ class TerrainManifolds {
 
  private:
   static constexpr uint32_t k_points_max = 8;
+  static constexpr int32_t k_one_cosine = 1 << 28;
   struct Group {
     Vec32 normal;
     Vec32 u, v;     ///< axes of the plane
@@ -64,6 +67,7 @@ class TerrainManifolds {
   void leave_out_doubtful();
 
   int64_t size_;
+  int32_t same_cosine_;  ///< the least dot product, Q28, of normals that count as one
   uint32_t count_ = 0;
   uint32_t dropped_ = 0;
   bool capped_ = false;

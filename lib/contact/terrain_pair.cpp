@@ -409,19 +409,12 @@ bool TerrainPair::touch(uint32_t index, TerrainTouch& touch) const {
   touch.on_face = true;
   touch.doubtful = false;
   for (uint32_t k = 0; k < 3; ++k) touch.corner_name[k] = corner_name(side.triangle.corner[k]);
-  const auto deepest_of = [](const BlockManifold& manifold) {
-    int64_t least = INT64_MAX;
-    for (uint32_t i = 0; i < manifold.count; ++i) {
-      least = manifold.point[i].separation < least ? manifold.point[i].separation : least;
-    }
-    return least;
-  };
   Feature face;
   for (uint32_t k = 0; k < 3; ++k) face.add({convex.corner[k][0], convex.corner[k][1], convex.corner[k][2]}, k);
   face.normal = side.normal;
   face.along = axis_across(side.normal);
   contact_points_over_face(pair, face, margin_, ManifoldReduction::projected_extremes, touch.manifold);
-  touch.deepest = deepest_of(touch.manifold);
+  touch.deepest = least_separation(touch.manifold);
   const bool over = touch.manifold.count > 0, shallow = touch.deepest > -(thickness_ >> k_shallow_power);
   const bool sharp = free && has_sharp_edge(side);
   if (!sharp && over && shallow) return true;
@@ -441,13 +434,18 @@ bool TerrainPair::touch(uint32_t index, TerrainTouch& touch) const {
   if (searched.leans && !allows(side, searched.normal)) find_contact_points(pair, rules, nullptr, searched);
   if (searched.count == 0) return false;
   const int64_t facing = dot(searched.normal, side.normal);  // Q60
-  if (is_at_seam(side, facing, deepest_of(searched))) {
+  if (is_at_seam(side, facing, least_separation(searched))) {
     touch.seam = true;
     if (facing < k_alike) return false;
-    for (uint32_t i = 0; i < searched.count; ++i) searched.point[i].separation = side.height;
     turn_to(side.normal, searched);
+    // Each point keeps its place on the shape, and gets this place's height above the triangle's plane.
+    const Vec64 from = negate(from_centre(side.triangle.corner[0]));
+    for (uint32_t i = 0; i < searched.count; ++i) {
+      BlockPoint& point = searched.point[i];
+      point.separation = dot(add(from, point.from_b), side.normal).round_shift(30) + point.separation / 2;
+    }
     touch.manifold = searched;
-    touch.deepest = side.height;
+    touch.deepest = least_separation(searched);
     return true;
   }
   constexpr int64_t k_upright_cosine = (int64_t{1} << 60) - (int64_t{1} << 49);  // 2^-5 rad
@@ -458,11 +456,11 @@ bool TerrainPair::touch(uint32_t index, TerrainTouch& touch) const {
     return false;
   } else if (!allows(side, searched.normal)) {
     touch.doubtful = !shallow;
-    return over && (shallow || deepest_of(searched) <= 0);  // else the shape overlaps only beside the triangle
+    return over && (shallow || least_separation(searched) <= 0);  // else the shape overlaps only beside the triangle
   }
   touch.on_face = facing >= k_upright_cosine;
   touch.manifold = searched;
-  touch.deepest = deepest_of(searched);
+  touch.deepest = least_separation(searched);
   return true;
 }
 

@@ -156,6 +156,10 @@ Vec3<Real> half_space_point(const Vec64& offset, const Vec32& on_other, int expo
           component(offset.z, on_other.z, up.z)};
 }
 
+Vec32 scaled_vector(const Vec32& v, int64_t length) {
+  return round_shift(Vec64{v.x * length, v.y * length, v.z * length}, 30);
+}
+
 int raw_exponent_above(int64_t raw) {
   const int e = bit_length_64(static_cast<uint64_t>(raw)) - k_metre_bits;
   return e < -14 ? -14 : e;

@@ -62,6 +62,8 @@ Vec3<Real> half_space_point(const Vec64& offset, const Vec32& on_other, int expo
 int raw_exponent_above(int64_t raw);
 /// (v.n) n for a unit vector n, Q30.
 Vec64 component_along(const Vec64& v, const Vec32& n);
+/// Returns the unit vector v (Q30) times `length`, in the unit of `length`.
+Vec32 scaled_vector(const Vec32& v, int64_t length);
 /// raw_core_radius(): the core radius. raw_radius(): the rounding radius. Both in 2^-46 m.
 int64_t raw_core_radius(const Convex& convex);
 int64_t raw_radius(const Convex& convex);

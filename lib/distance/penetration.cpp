@@ -357,8 +357,7 @@ Penetration half_space_penetration(const Placed& a, const Placed& b, const Vec32
   const int64_t height = dot(up, add(displacement, deepest));  // above the plane, Q30
   const int64_t depth = height < 0 ? (-height + k_ulp - 1) >> 30 : 0;
   const int64_t below = round_shift_64(height, 30);
-  const Vec32 foot =
-      subtract(add(displacement, deepest), round_shift(Vec64{below * up.x, below * up.y, below * up.z}, 30));
+  const Vec32 foot = subtract(add(displacement, deepest), scaled_vector(up, below));
   return {normal,
           static_cast<int32_t>(depth),
           static_cast<int32_t>(depth),

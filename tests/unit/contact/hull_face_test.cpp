@@ -144,6 +144,27 @@ DETENT_TEST(hull_face, that_leans_against_edges_that_cross_touches_in_several_po
   }
 }
 
+/// The edge is long, so far away from the bar it is much deeper below the face than at the bar.
+DETENT_TEST(hull_face, that_leans_against_a_long_edge_touches_it_on_both_sides) {
+  const double half = 0.7071067811865476;
+  const HullShape bar_points(box_points({{-0.03, -0.6, -0.04}}, {{0.03, 0.6, 0.04}}));
+  Convex bar, long_box;
+  EXPECT_OK(make_convex(box(reals_near({{0.03, 0.6, 0.04}})), bar));
+  EXPECT_OK(make_convex(box(reals_near({{0.5, 0.5, 5}})), long_box));
+  const Pose below = pose_of({{0, -half, 0}}, detent_oracle::rotation_by({{0, 0, M_PI / 4}}));
+  for (const double lean : {0.0, 3e-4, 1e-3, -1e-3, 3e-3}) {
+    // The bar lies across the edge, rotated about its own long axis by `lean`.
+    const Quaternion rotation =
+        detent_oracle::rotation_by({{lean, 0, 0}}) * detent_oracle::rotation_by({{0, 0, M_PI / 2}});
+    const Pose above = pose_of({{0.1, 0.03 - 0.0001, 0.2}}, rotation);
+    for (const Convex& upper : {bar, bar_points.convex}) {
+      const ContactManifold manifold = contact_between(long_box, below, upper, above);
+      ASSERT_EQ(manifold.count, 2u) << lean;
+      EXPECT_NEAR(fabs(host(manifold.point[0].from_b)[2] - host(manifold.point[1].from_b)[2]), 0.08, 1e-3) << lean;
+    }
+  }
+}
+
 /// The lower edge of a chamfer is nearly parallel to the face, but is not part of it.
 DETENT_TEST(hull_face, between_chamfers_is_the_face_alone) {
   Points points;

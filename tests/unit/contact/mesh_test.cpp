@@ -239,6 +239,43 @@ DETENT_TEST(mesh_contact, a_stick_across_a_mild_ridge_lies_on_both_sides_of_its_
   EXPECT_EQ(on_ridge, 3u);
 }
 
+/// The two sides of the ridge differ by less than a cube notices, and by more than fits under a long thin rod.
+DETENT_TEST(mesh_contact, a_rod_across_a_low_ridge_has_a_manifold_on_each_side_and_a_cube_has_one) {
+  const Ground ridge(ground(4, 1, [&](double x, double) { return -0.004 * fabs(x); }));
+  for (const bool is_rod : {true, false}) {
+    OracleBody body = body_of(box(is_rod ? reals_near({{0.7, 0.02, 0.1}}) : reals_near({{0.3, 0.3, 0.3}})));
+    body.pose.rotation = {0.0, 0.0, 0.0, 1.0};
+    body.pose.position = position_near({{0, (is_rod ? 0.02 : 0.3) - 0.0001, 0.3}});
+    EXPECT_EQ(contacts_of(ridge, body).count, is_rod ? 2u : 1u);
+  }
+}
+
+/// The capsule lies deep in one side of the ridge with its end, and touches the ridge with its middle.
+DETENT_TEST(mesh_contact, each_point_of_a_capsule_across_a_ridge_has_the_depth_at_its_own_place) {
+  const double slope = 0.02, radius = 0.03, half = 0.2;
+  const Ground ridge(ground(4, 1, [&](double x, double) { return -slope * fabs(x); }));
+  OracleBody body = body_of(capsule(real_near(radius), real_near(half)));
+  uint32_t points = 0;
+  for (const double lean : {-0.03, -0.01, 0.01, 0.03}) {
+    for (const double beside : {-0.1, 0.0, 0.05, 0.15}) {
+      const double rise = 0.0002 + fmax(0.0, (fabs(lean) - slope) * half) / 2;
+      body.pose.rotation = rotation_near(rotate_about({{0, 0, 1}}, lean - M_PI / 2));
+      body.pose.position = position_near({{beside, radius + beside * tan(lean) + rise, 0.3}});
+      const TerrainContacts contacts = contacts_within({real_near(0.01), real_near(0.001)}, ridge, body);
+      for (uint32_t i = 0; i < contacts.count; ++i) {
+        for (uint32_t k = 0; k < contacts.contact[i].geometry.count; ++k) {
+          const ContactGeometryPoint& point = contacts.contact[i].geometry.point[k];
+          const double along = host(point.arm_b)[0] * unit_of(body.properties);
+          const double surface = rise + (beside + along) * tan(lean), below = -slope * fabs(beside + along);
+          EXPECT_NEAR(real_to_host(point.separation), surface - below, 1e-4) << lean << " " << beside << " " << along;
+          ++points;
+        }
+      }
+    }
+  }
+  EXPECT_GT(points, 30u);
+}
+
 /// The centre of the rod lies behind the plane of the triangle below its end.
 DETENT_TEST(mesh_contact, a_rod_that_reaches_over_a_ridge_is_not_pulled_through_it) {
   const double slope = 0.5;
@@ -415,7 +452,7 @@ DETENT_TEST(mesh_contact, what_finds_no_room_is_counted_and_the_deepest_stay) {
 }
 
 DETENT_TEST(mesh_contact, what_is_certain_finds_room_among_deeper_contacts_that_are_doubtful) {
-  TerrainManifolds found(int64_t{1} << 40);
+  TerrainManifolds found(int64_t{1} << 40, 5);
   for (uint32_t i = 0; i <= k_terrain_manifolds_max; ++i) {
     TerrainTouch touch = {};
     touch.triangle = i;
@@ -430,6 +467,24 @@ DETENT_TEST(mesh_contact, what_is_certain_finds_room_among_deeper_contacts_that_
   }
   ASSERT_EQ(found.finish(), 1u);
   EXPECT_EQ(found.manifold(0).triangle, k_terrain_manifolds_max);
+}
+
+DETENT_TEST(mesh_contact, touches_on_a_face_and_at_an_edge_share_a_manifold_only_if_their_normals_are_equal) {
+  for (const int32_t tilt : {0, 1 << 20}) {  // 2^-10 rad
+    TerrainManifolds found(int64_t{1} << 40, 5);
+    for (uint32_t i = 0; i < 4; ++i) {
+      TerrainTouch touch = {};
+      touch.triangle = i;
+      touch.on_face = i % 2 == 0;
+      touch.manifold.normal = {touch.on_face ? 0 : tilt, (1 << 30) - (touch.on_face ? 0 : tilt >> 11), 0};
+      touch.manifold.count = 1;
+      touch.manifold.point[0] = {{0, 0, 0}, {0, 0, int64_t{i} << 40}, 0, i + 1};
+      found.add(touch);
+    }
+    const uint32_t count = tilt == 0 ? 1 : 2;
+    ASSERT_EQ(found.finish(), count);
+    for (uint32_t i = 0; i < count; ++i) EXPECT_EQ(found.manifold(i).count, 4 / count);
+  }
 }
 
 DETENT_TEST(mesh_contact, sizes_of_any_kind_together_stay_in_range) {

@@ -92,14 +92,19 @@ void judge(const OraclePair& pair, const ContactGeometry& contact, double distan
   const double aligned = a.kind == Kind::box && !boxes ? 0x1.1p-27 * (b.size[0] + distance_max)
                          : parallel                    ? 0x1p-40 * unit_of(pair.b.properties)
                                                        : 0;
-  // A face at an angle to crossing edges separates them by a little less than the best axis.
+  // A face at an angle to crossing edges separates them by a little less than the best axis. If one edge is much longer
+  // than the other body, it is much deeper below the face far away from this body. What counts is the depth of the
+  // deepest point.
   const double preference = preference_of(a, b, right), lost = right.value - preference - along - aligned;
   const bool leans = boxes && contact.count > 1 && lost > 2 * error;
   // A face at an angle to a capsule that crosses its sides does not separate them beside the face: the depth of the
   // deepest point counts.
   const bool crosses = a.kind == Kind::box && !boxes && b.size[1] > 0 && lost > 2 * error && is_axis_of(a, n);
   seen.leaning += leans || crosses ? 1 : 0;
-  if (!crosses) worst(seen.gap, leans ? lost - 4 * preference : lost);
+  const double span = 2 * (fabs(b.centre[0]) + fabs(b.centre[1]) + fabs(b.centre[2]) +
+                           length(Vector{{a.size[0], a.size[1], a.size[2]}}) +
+                           length(Vector{{b.size[0], b.size[1], b.size[2]}}) + distance_max);
+  if (!crosses) worst(seen.gap, leans ? lost - fmax(4 * preference, 0x1p-7 * span) : lost);
 
   // A sphere or capsule just beyond the rim of a box counts as over the face, within 2^-13 of the distance.
   const double slack = boxes ? side_slack(a, b) : a.kind == Kind::box ? 0x1.1p-13 * (b.size[0] + distance_max) : 0;
@@ -114,6 +119,7 @@ void judge(const OraclePair& pair, const ContactGeometry& contact, double distan
     deepest = fmin(deepest, separation);
     worst(seen.beyond, separation - distance_max);
     worst(seen.too_deep, along - separation);
+    if (leans) worst(seen.too_deep, right.value - preference - separation);
     const Vector at = b.centre + host(point.arm_b) * unit_of(pair.b.properties);
     if (a.kind != Kind::half_space) worst(seen.arms, length(host(point.arm_a) * unit_of(pair.a.properties) - at));
     const double on_a = distance_to_surface(a, at - n * (separation / 2));
