@@ -57,6 +57,40 @@ DETENT_TEST(terrains, carry_every_shape_as_a_half_space_does) {
   }
 }
 
+/// Boxes, plates and rods fall one after the other on ground whose slopes differ by up to a few degrees, so that they
+/// lie across its ridges and valleys.
+DETENT_TEST(terrains, let_boxes_of_all_proportions_come_to_rest) {
+  const auto uneven = [](double x, double z) {
+    const int i = static_cast<int>(lround(2 * x)) + 100, j = static_cast<int>(lround(2 * z)) + 100;
+    return 0.003 * ((7 * i + 13 * j + 5 * i * j) % 11);
+  };
+  TerrainLab lab(field_of(24, 0.5, uneven, false), {}, true);
+  lab.add_terrain();
+  detent_queries::Random random(5);
+  const uint32_t count = detent_oracle::rounds(400);
+  uint32_t restless = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    BodyDef def;
+    const double longest = random.log_uniform(0.125, 1);
+    const double width = longest * random.log_uniform(0.03, 1), height = longest * random.log_uniform(0.03, 1);
+    def.shape = box(reals(width, longest, height));
+    const double x = random.uniform(-2, 2), z = random.uniform(-2, 2);
+    def.position = position(x, 2, z);
+    const detent_queries::Triple spin = random.direction();
+    def.angular_velocity = reals(3 * spin[0], 3 * spin[1], 3 * spin[2]);
+    const BodyId id = lab.add(def);
+    bool awake = true;
+    for (int second = 0; second < 15 && awake; ++second) {
+      lab.run(60);
+      EXPECT_OK(is_awake(lab.world, id, awake));
+    }
+    restless += awake ? 1 : 0;
+    EXPECT_OK(destroy_body(lab.world, id));
+  }
+  printf("%u of %u boxes did not come to rest\n", restless, count);
+  EXPECT_LE(restless, count / 2000);
+}
+
 /// Without friction, a body that slides over inner edges keeps its speed and stays on the ground.
 DETENT_TEST(terrains, are_slid_over_without_a_hitch) {
   TerrainLab lab(detent_terrains::cooked(detent_terrains::plane(60, 0.31)));
