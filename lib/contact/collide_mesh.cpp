@@ -21,7 +21,7 @@ uint32_t feature_of(uint32_t feature, const uint32_t (&corner)[3]) {
 }
 
 /// The angle up to which normals of triangles count as one is 2^-k rad; this function returns k. The angle is about
-/// 1/32 of the half thickness over the bounding radius. So at the ends of a long shape, triangles differ from their
+/// 1/32 of the half thickness over the radius of the core. So at the ends of a long shape, triangles differ from their
 /// common plane by about a 32nd of the half thickness.
 int same_power_of(const Convex& shape, int64_t half_thickness) {
   constexpr int k_least = 5, k_most = 12;

@@ -10,7 +10,8 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int k_plane_power = 4;  ///< planes at most 2^-4 of the half thickness apart count as one plane
-constexpr int32_t k_equal_cosine = (1 << 28) - (1 << 3);  // Q28; 2^-12 rad
+/// Dot product, Q28, from which on normals are equal: 2^-12 rad.
+constexpr int32_t k_equal_cosine = (1 << 28) - (1 << 3);
 constexpr uint32_t k_edge_key = 0x80000000u;
 
 /// Whether a group with these values is kept rather than another one: doubtful groups go first, then the shallowest.
