@@ -59,8 +59,8 @@ struct ContactManifold {
 /// - The face normal is within 2^-13 rad of the axis.
 /// - The cores overlap or nearly touch, and the face normal separates them as well as the axis, to within h / 64.
 /// - The cores overlap or nearly touch at crossing edges, the face normal is within 2^-3 rad of the axis and separates
-///   the cores as well as the axis, to within h / 16 or 1/128 of the larger core's size, whichever is more, and the
-///   points on the face are at most h / 64 deeper.
+///   the cores as well as the axis, to within h / 16 or about 1/64 of the extent of both shapes together, whichever is
+///   more, and the points on the face are at most h / 64 deeper.
 ///
 /// Faces of a hull that are coplanar to within 1/64 of the hull's half thickness count as one face, with the normal of
 /// their common outline.

@@ -36,7 +36,7 @@ inline OracleBody body_of(const Shape& shape) {
   return body;
 }
 
-inline TerrainContacts contacts_within(const ContactMargins& margins, const Ground& ground, const OracleBody& body) {
+inline TerrainContacts contacts_of(const Ground& ground, const OracleBody& body, double distance_max = k_reach) {
   const Matrix3 rotation = matrix_from(body.pose.rotation);
   TerrainContacts contacts;
   BodyProperties properties{};
@@ -47,12 +47,9 @@ inline TerrainContacts contacts_within(const ContactMargins& margins, const Grou
   const CollisionBody terrain_body = {pose, properties, matrix_from(pose.rotation)};
   Convex shape;
   EXPECT_TRUE(body_convex(body.properties, k_table, shape));
-  collide_mesh(ground.terrain, terrain_body, {body.pose, body.properties, rotation}, shape, {0, 0, 0}, margins,
-               contacts);
+  collide_mesh(ground.terrain, terrain_body, {body.pose, body.properties, rotation}, shape, {0, 0, 0},
+               real_near(distance_max), contacts);
   return contacts;
-}
-inline TerrainContacts contacts_of(const Ground& ground, const OracleBody& body, double distance_max = k_reach) {
-  return contacts_within(real_near(distance_max), ground, body);
 }
 
 inline double deepest_of(const TerrainContacts& contacts) {

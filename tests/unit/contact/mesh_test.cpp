@@ -250,32 +250,6 @@ DETENT_TEST(mesh_contact, a_rod_across_a_low_ridge_has_a_manifold_on_each_side_a
   }
 }
 
-/// The capsule lies deep in one side of the ridge with its end, and touches the ridge with its middle.
-DETENT_TEST(mesh_contact, each_point_of_a_capsule_across_a_ridge_has_the_depth_at_its_own_place) {
-  const double slope = 0.02, radius = 0.03, half = 0.2;
-  const Ground ridge(ground(4, 1, [&](double x, double) { return -slope * fabs(x); }));
-  OracleBody body = body_of(capsule(real_near(radius), real_near(half)));
-  uint32_t points = 0;
-  for (const double lean : {-0.03, -0.01, 0.01, 0.03}) {
-    for (const double beside : {-0.1, 0.0, 0.05, 0.15}) {
-      const double rise = 0.0002 + fmax(0.0, (fabs(lean) - slope) * half) / 2;
-      body.pose.rotation = rotation_near(rotate_about({{0, 0, 1}}, lean - M_PI / 2));
-      body.pose.position = position_near({{beside, radius + beside * tan(lean) + rise, 0.3}});
-      const TerrainContacts contacts = contacts_within({real_near(0.01), real_near(0.001)}, ridge, body);
-      for (uint32_t i = 0; i < contacts.count; ++i) {
-        for (uint32_t k = 0; k < contacts.contact[i].geometry.count; ++k) {
-          const ContactGeometryPoint& point = contacts.contact[i].geometry.point[k];
-          const double along = host(point.arm_b)[0] * unit_of(body.properties);
-          const double surface = rise + (beside + along) * tan(lean), below = -slope * fabs(beside + along);
-          EXPECT_NEAR(real_to_host(point.separation), surface - below, 1e-4) << lean << " " << beside << " " << along;
-          ++points;
-        }
-      }
-    }
-  }
-  EXPECT_GT(points, 30u);
-}
-
 /// The centre of the rod lies behind the plane of the triangle below its end.
 DETENT_TEST(mesh_contact, a_rod_that_reaches_over_a_ridge_is_not_pulled_through_it) {
   const double slope = 0.5;
