@@ -1,5 +1,6 @@
 #include "distance/penetration.h"
 
+#include "distance/pair.h"
 #include "math/root.h"
 
 // Bit widths, with |vertex| < 2^30 and |edge| < 2^31. A face's normal is below 2^62 (64 bits). Its product with a
