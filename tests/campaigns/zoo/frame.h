@@ -71,7 +71,8 @@ struct StepFigures {
   uint32_t awake = 0;
   double seconds = 0;
   uint32_t islands = 0;
-  const char* lost_most = "";  ///< the greatest of the counts in `lost`
+  uint32_t impacts = 0, tests = 0;  ///< of continuous collision
+  const char* lost_most = "";       ///< the greatest of the counts in `lost`
 };
 
 /// A change of a scene's settings.
@@ -87,8 +88,8 @@ class Play {
   /// Makes the calls before the next tick. Returns whether there were any; on failure sets `problem`.
   virtual bool call(std::string& problem) = 0;
   virtual StepFigures step() = 0;
-  /// Changes the settings, before the first tick. Returns false if they would leave their range, or if the engine cannot
-  /// change them.
+  /// Changes the settings, before the first tick. Returns false if they would leave their range, or if the engine
+  /// cannot change them.
   virtual bool vary(const Variation&) { return false; }
   /// From here on stages() counts, ns.
   virtual void start_profile() {}

@@ -93,6 +93,18 @@ std::string take_gap(const std::string& word, Entry& entry) {
 
 }  // namespace
 
+Entry make_entry(const std::string& scene, const std::string& source, const std::string& wants, std::string& problem) {
+  Entry entry;
+  entry.scene = scene;
+  entry.source = source;
+  entry.wants = wants;
+  entry.bounds = k_defaults;
+  for (const std::string& word : words_of(wants)) {
+    if (const std::string wrong = take_wanted(word, entry); !wrong.empty()) problem = wrong;
+  }
+  return entry;
+}
+
 std::vector<Entry> read_list(const std::string& path, std::string& problem) {
   std::ifstream file(path);
   std::vector<Entry> entries;
@@ -105,15 +117,10 @@ std::vector<Entry> read_list(const std::string& path, std::string& problem) {
       fail("has not " + std::to_string(k_columns) + " columns");
       break;
     }
-    Entry entry;
-    entry.scene = cells[0];
-    entry.source = cells[1];
-    entry.wants = cells[2];
+    std::string wrong_want;
+    Entry entry = make_entry(cells[0], cells[1], cells[2], wrong_want);
+    if (!wrong_want.empty()) fail(wrong_want);
     entry.why = cells[3];
-    entry.bounds = k_defaults;
-    for (const std::string& word : words_of(cells[2])) {
-      if (const std::string wrong = take_wanted(word, entry); !wrong.empty()) fail(wrong);
-    }
     for (const std::string& word : words_of(cells[4])) {
       if (const std::string wrong = take_gap(word, entry); !wrong.empty()) fail(wrong);
     }

@@ -19,8 +19,11 @@ struct Entry {
   std::map<std::string, double> bounds;               ///< bounds of the checks that apply
   std::string wants, why;                             ///< as in the file
   std::map<std::string, std::set<std::string>> gaps;  ///< by configuration: the checks that fail today
+  bool ends_asleep = false;                           ///< it is played until all bodies sleep; no call wakes them
 };
 
+/// A row without gaps. On failure `problem` has the reason.
+Entry make_entry(const std::string& scene, const std::string& source, const std::string& wants, std::string& problem);
 /// Reads the rows of the file. On failure `problem` has the line and the reason.
 std::vector<Entry> read_list(const std::string& path, std::string& problem);
 /// Rewrites the file with the entries' gaps. False if it cannot be written.

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "tests/campaigns/zoo/random_list.h"
+#include "tests/campaigns/zoo/random_run.h"
 #include "tests/campaigns/zoo/report.h"
 
 using namespace detent_zoo;
@@ -18,7 +20,7 @@ constexpr const char* k_folder = DETENT_ROOT "/tests/campaigns/zoo/scenes";
 
 struct Options {
   std::vector<std::string> scenes, configs;
-  std::string list_file = DETENT_ROOT "/tests/campaigns/zoo/zoo.csv", markdown;
+  std::string list_file, markdown, random, folder = DETENT_RANDOM_SCENES;
   bool list = false, renew = false;
   uint32_t vary = 0;
   Variation variation;
@@ -60,11 +62,45 @@ bool vary(const Entry& entry, const Engine& engine, uint32_t count, Variation va
   return true;
 }
 
+std::vector<Engine> engines_of(const Options& options) {
+  std::vector<Engine> engines;
+  for (const Engine& engine : all_engines()) {
+    if (options.configs.empty() || std::count(options.configs.begin(), options.configs.end(), engine.config) != 0)
+      engines.push_back(engine);
+  }
+  return engines;
+}
+
+std::string list_file_of(const Options& options) {
+  if (!options.list_file.empty()) return options.list_file;
+  return std::string(DETENT_ROOT "/tests/campaigns/zoo/") + (options.random.empty() ? "zoo.csv" : "random.csv");
+}
+
+int play_random(const Options& options) {
+  RandomRun run;
+  unsigned long long first = 0, last = 0;
+  if (sscanf(options.random.c_str(), "%llu:%llu", &first, &last) != 2) return cannot("--random needs FIRST:LAST");
+  if (options.renew && (first != 1 || last != k_seeds_tested))
+    return cannot("the list has the seeds of the test: --random 1:" + std::to_string(k_seeds_tested));
+  run.first = first;
+  run.last = last;
+  run.folder = options.folder;
+  run.assets = k_folder;
+  run.list_file = list_file_of(options);
+  run.renew = options.renew;
+  run.variation = options.variation;
+  std::string problem;
+  const bool good = run_random(run, engines_of(options), problem);
+  if (!problem.empty()) return cannot(problem);
+  return good ? k_exit_good : k_exit_bad;
+}
+
 int run(const Options& options) {
   std::string problem;
-  std::vector<Entry> entries = read_list(options.list_file, problem);
+  const std::string list_file = list_file_of(options);
+  std::vector<Entry> entries = read_list(list_file, problem);
   if (!problem.empty()) return cannot(problem);
-  const std::vector<Engine> engines = all_engines();
+  const std::vector<Engine> engines = engines_of(options);
   std::vector<Row> rows;
   bool good = true;
   const bool terminal = isatty(STDERR_FILENO) == 1;
@@ -76,9 +112,6 @@ int run(const Options& options) {
       continue;
     }
     for (const Engine& engine : engines) {
-      if (!options.configs.empty() && std::count(options.configs.begin(), options.configs.end(), engine.config) == 0) {
-        continue;
-      }
       if (terminal) fprintf(stderr, "\r\033[K%s %s", entry.scene.c_str(), engine.config);
       if (options.vary != 0) {
         if (terminal) fprintf(stderr, "\r\033[K");
@@ -91,7 +124,7 @@ int run(const Options& options) {
       if (terminal) fprintf(stderr, "\r\033[K");
       printf("%s\n", line_of(row).c_str());
       if (!surprise.empty()) {
-        printf("  not as zoo.csv says: %s  to see it: detent view %s/%s.json --config %s -o page.html\n",
+        printf("  not as the list says: %s  to see it: detent view %s/%s.json --config %s -o page.html\n",
                surprise.c_str(), k_folder, entry.scene.c_str(), engine.config);
       }
       fflush(stdout);
@@ -104,7 +137,7 @@ int run(const Options& options) {
   if (options.list || options.vary != 0) return good ? k_exit_good : k_exit_bad;
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   fprintf(stderr, "%zu runs, %.1f s\n", rows.size(), seconds.count());
-  if (options.renew && !write_list(options.list_file, entries)) return cannot(options.list_file + " cannot be written");
+  if (options.renew && !write_list(list_file, entries)) return cannot(list_file + " cannot be written");
   if (!options.markdown.empty() && !write_page(options.markdown, rows)) {
     return cannot(options.markdown + " cannot be written");
   }
@@ -120,18 +153,26 @@ int main(int argc, char** argv) {
       app.add_option("--scenes", options.scenes, "Only those whose names start so, separated by commas")
           ->delimiter(',');
   CLI::Option* const configs = app.add_option("--configs", options.configs, "Only these")->delimiter(',');
-  app.add_option("--list-file", options.list_file, "Instead of tests/campaigns/zoo/zoo.csv")->capture_default_str();
-  app.add_flag("--list", options.list, "List the scenes");
+  CLI::Option* const random =
+      app.add_option("--random", options.random, "Play random scenes instead, with the seeds FIRST:LAST")
+          ->excludes(scenes);
+  app.add_option("--folder", options.folder, "Write the random scenes there, for detent view")
+      ->needs(random)
+      ->capture_default_str();
+  app.add_option("--list-file", options.list_file, "Instead of zoo.csv, or random.csv, in tests/campaigns/zoo");
+  app.add_flag("--list", options.list, "List the scenes")->excludes(random);
   CLI::Option* const renew =
       app.add_flag("--renew", options.renew, "Write the list anew: what failed in this run are the known gaps");
   CLI::Option* const markdown =
       app.add_option("--markdown", options.markdown, "Write the table of all into this page: docs/zoo.md")
           ->excludes(scenes)
-          ->excludes(configs);
+          ->excludes(configs)
+          ->excludes(random);
   app.add_option("--vary", options.vary,
                  "Play each scene so often, each time with a slightly stronger gravity, and count the failures")
       ->check(CLI::Range(1u, 1000u))
       ->excludes(renew)
+      ->excludes(random)
       ->excludes(markdown);
   app.add_option("--gravity", options.variation.gravity, "Multiply the gravity of the scenes by this factor")
       ->excludes(renew)
@@ -143,5 +184,5 @@ int main(int argc, char** argv) {
       ->excludes(renew)
       ->excludes(markdown);
   CLI11_PARSE(app, argc, argv);
-  return run(options);
+  return options.random.empty() ? run(options) : play_random(options);
 }

@@ -38,6 +38,8 @@ class DetentPlay : public detent_zoo::Play {
     figures.substeps = report.substeps_max;
     figures.awake = report.awake;
     figures.islands = report.islands;
+    figures.impacts = report.ccd.impacts;
+    figures.tests = report.ccd.tests;
     return figures;
   }
 

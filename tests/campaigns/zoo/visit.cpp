@@ -55,6 +55,7 @@ Verdict visit(const Entry& entry, const Engine& engine, const std::string& folde
     if (!verdict.problem.empty()) return verdict;
     const StepFigures step = play->step();
     watch.tick(play->frame(), step);
+    if (entry.ends_asleep && step.awake == 0) break;
     if (!(watch.figures().speed.value <= k_hopeless * entry.bounds.at("speed"))) break;
   }
   verdict.figures = watch.finish();
@@ -77,7 +78,7 @@ std::string surprises(const Entry& entry, const char* config, const Verdict& ver
     const bool fails = verdict.failed.count(check) != 0;
     if (fails == (known.count(check) != 0)) continue;
     text += check + ": " + number(measured(verdict.figures, check)) + (fails ? " is more than " : " is within ") +
-            number(bound) + (fails ? "" : ", which zoo.csv lists as a gap") + "\n";
+            number(bound) + (fails ? "" : ", which the list has as a gap") + "\n";
   }
   return text;
 }

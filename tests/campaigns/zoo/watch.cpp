@@ -285,6 +285,8 @@ void Watch::tick(const Frame& now, const StepFigures& step) {
   take_momentum(now);
   if (static_cast<double>(step.lost) > figures_.lost.value) figures_.lost_most = step.lost_most;
   figures_.lost.take(static_cast<double>(step.lost), tick_);
+  figures_.impacts.take(step.impacts, tick_);
+  figures_.tests.take(step.tests, tick_);
   if (step.awake != 0) figures_.asleep_from = 0;
   if (step.awake == 0 && figures_.asleep_from == 0) figures_.asleep_from = tick_;
   substeps_ += step.substeps;

@@ -38,10 +38,11 @@ struct Figures {
   Worst angular_momentum;  ///< of angular momentum, as `momentum`
   /// Depth of a pair that lasts for 10 ticks, relative to the thickness of the thinner dynamic body.
   Worst sunk;
-  Worst pierced;  ///< depth of a pair in one tick, relative to the same thickness
-  Worst moved;    ///< displacement of a body's centre since tick 30, relative to its size
-  Worst fallen;   ///< of a body's centre below the height 0, m
-  Worst risen;    ///< of a body's centre above its start, m
+  Worst pierced;         ///< depth of a pair in one tick, relative to the same thickness
+  Worst moved;           ///< displacement of a body's centre since tick 30, relative to its size
+  Worst fallen;          ///< of a body's centre below the height 0, m
+  Worst risen;           ///< of a body's centre above its start, m
+  Worst impacts, tests;  ///< of continuous collision, in one tick
   double rest_speed = 0, rest_angular_velocity = 0;  ///< means over the dynamic bodies at the end, m/s, rad/s
   uint32_t asleep_from = 0;                          ///< the tick from which all slept to the end; 0: not all
   double substeps_mean = 0;
