@@ -108,8 +108,7 @@ Vec3<Real> fall_after(const ImpactStage& stage, uint32_t slot, Fraction time) {
   if (!is_dynamic(properties) || (stage.sweep_of(slot).marks & k_mark_slept) != 0) return k_zero_vector;
   const Vec3<Real> fall = stage.settings.gravity * stage.settings.tick_time;
   bool saturated = false;
-  return sweep_part({multiply(fall, properties.gravity_scale, saturated), k_zero_vector}, k_whole_step - time)
-      .displacement;
+  return part_of(multiply(fall, properties.gravity_scale, saturated), k_whole_step - time);
 }
 
 /// Returns a part of the speed, m/s, at which the rotations of both bodies can bring them together again in the rest of
@@ -139,76 +138,108 @@ Real parting_speed(const ImpactStage& stage, const ImpactPair& pair, const Conta
   return max(max(half_in_a_tick, scale_by_power(approach, power)), bend_speed(stage, pair));
 }
 
+/// One of the bodies that resolve_at() separates: first its motion along the sweep, then the one in its state.
+class ImpactedBody {
+ public:
+  DETENT_SHARED ImpactedBody(ImpactStage& stage, uint32_t slot, const BodyPose& pose)
+      : stage_(stage),
+        slot_(slot),
+        pose_(pose),
+        properties_(stage.bodies.properties[slot]),
+        before_(motion_of_sweep(properties_, pose.rotation, stage.sweep_of(slot), stage.tick_rate)),
+        motion_(before_),
+        inverse_inertia_(world_inverse_inertia(properties_, matrix_from(pose.rotation))),
+        angular_velocity_(world_angular_velocity(properties_, inverse_inertia_, before_.angular_momentum,
+                                                 -k_angular_velocity_power)) {}
+  ImpactedBody(const ImpactedBody&) = delete;
+  ImpactedBody& operator=(const ImpactedBody&) = delete;
+
+  DETENT_SHARED RowBody row_body() const {
+    const Real extent = shape_extent(properties_);
+    return {
+        properties_, pose_, before_, inverse_inertia_, angular_velocity_, extent, fall_speed(stage_.settings, extent)};
+  }
+  ImpactBody impact_body() { return {properties_, pose_.rotation, motion_}; }
+
+  /// Changes the sweep to the motion after the impact, and wakes the body.
+  DETENT_SHARED void set_sweep() {
+    wake(stage_, slot_);
+    hold();
+    BodySweep& sweep = stage_.sweep_of(slot_);
+    if (!stage_.dynamic(slot_) || (sweep.marks & k_mark_stopped) != 0) return;
+    stage_.report.clamped +=
+        add_to_sweep(properties_, pose_.rotation, before_, motion_, stage_.settings.tick_time, sweep);
+  }
+  /// Goes on to the motion in the state, as it is at `time`.
+  DETENT_SHARED void read_state(Fraction time) {
+    fall_ = fall_after(stage_, slot_, time);
+    motion_ = stage_.motion_of(slot_);
+    motion_.linear_velocity -= fall_;
+  }
+  DETENT_SHARED void set_state() {
+    motion_.linear_velocity += fall_;
+    hold();
+    if (stage_.dynamic(slot_)) stage_.motion_of(slot_) = motion_;
+  }
+
+ private:
+  void hold() { stage_.report.clamped += clamp_angular_velocity(properties_, pose_.rotation, motion_); }
+
+  ImpactStage& stage_;
+  const uint32_t slot_;
+  const BodyPose& pose_;
+  const BodyProperties& properties_;
+  const BodyMotion before_;  ///< along the sweep
+  BodyMotion motion_;
+  const WorldInverseInertia inverse_inertia_;
+  const Vec3<Real> angular_velocity_;
+  Vec3<Real> fall_ = k_zero_vector;  ///< what gravity adds after the impact, m/s
+};
+
 /// Separates the bodies of a pair at the given points. Returns false if the bodies do not approach there; the attempt
 /// counts as work, but changes no body. `again`: the impulse is propagated from another pair. Then an approach of at
 /// most 2^-12 of first_approach is ignored, parting_speed() is not demanded, and the impact is not counted or recorded.
+/// Sets ImpactStage::approach.
 bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geometry, const BodyPose& pose_a,
                 const BodyPose& pose_b, bool again) {
-  const uint32_t a = pair_low(pair.key), b = pair_high(pair.key);
-  const BodyProperties &properties_a = stage.bodies.properties[a], &properties_b = stage.bodies.properties[b];
   stage.take_work(1);
-  const BodyMotion before_a = motion_of_sweep(properties_a, pose_a.rotation, stage.sweep_of(a), stage.tick_rate);
-  const BodyMotion before_b = motion_of_sweep(properties_b, pose_b.rotation, stage.sweep_of(b), stage.tick_rate);
+  const uint32_t slot_a = pair_low(pair.key), slot_b = pair_high(pair.key);
+  ImpactedBody a(stage, slot_a, pose_a), b(stage, slot_b, pose_b);
   ContactWork contact;
   contact.state = {};
   contact.state.point_count = static_cast<uint8_t>(geometry.count);
-  const WorldInverseInertia inverse_inertia_a = world_inverse_inertia(properties_a, matrix_from(pose_a.rotation));
-  const WorldInverseInertia inverse_inertia_b = world_inverse_inertia(properties_b, matrix_from(pose_b.rotation));
-  const Vec3<Real> angular_velocity_a =
-      world_angular_velocity(properties_a, inverse_inertia_a, before_a.angular_momentum, -k_angular_velocity_power);
-  const Vec3<Real> angular_velocity_b =
-      world_angular_velocity(properties_b, inverse_inertia_b, before_b.angular_momentum, -k_angular_velocity_power);
-  const Real extent_a = shape_extent(properties_a), extent_b = shape_extent(properties_b);
-  make_rows(stage.settings,
-            {properties_a, pose_a, before_a, inverse_inertia_a, angular_velocity_a, extent_a,
-             fall_speed(stage.settings, extent_a)},
-            {properties_b, pose_b, before_b, inverse_inertia_b, angular_velocity_b, extent_b,
-             fall_speed(stage.settings, extent_b)},
-            geometry, k_zero, contact);
-  BodyMotion after_a = before_a, after_b = before_b;
-  Real approach = k_zero;
+  make_rows(stage.settings, a.row_body(), b.row_body(), geometry, k_zero, contact);
+  const Scaled rebound = scaled_from(stage.rebound);
+  if (less(contact.restitution, rebound)) {
+    contact.restitution = rebound;
+    contact.rebound_min = k_zero;
+  }
   const Real parting = again ? k_zero : parting_speed(stage, pair, contact, geometry.count);
   const Real least = again ? scale_by_power(stage.first_approach, -12) : k_zero;
-  const auto resolves = [&](Real least_approach, Real leave, BodyMotion& motion_a, BodyMotion& motion_b, Real& found) {
-    return resolve_impact(contact, geometry.count, least_approach, leave, {properties_a, pose_a.rotation, motion_a},
-                          {properties_b, pose_b.rotation, motion_b}, found);
+  const auto resolves = [&](Real least_approach, Real leave, Real& found) {
+    return resolve_impact(contact, geometry.count, least_approach, leave, a.impact_body(), b.impact_body(), found);
   };
-  if (!resolves(least, parting, after_a, after_b, approach)) return false;
-  wake(stage, a);
-  wake(stage, b);
-  stage.report.clamped += clamp_angular_velocity(properties_a, pose_a.rotation, after_a) +
-                          clamp_angular_velocity(properties_b, pose_b.rotation, after_b);
-  const auto change_sweep = [&](uint32_t slot, const BodyPose& pose, const BodyMotion& before,
-                                const BodyMotion& after) {
-    if (!stage.dynamic(slot) || (stage.sweep_of(slot).marks & k_mark_stopped) != 0) return;
-    stage.report.clamped += add_to_sweep(stage.bodies.properties[slot], pose.rotation, before, after,
-                                         stage.settings.tick_time, stage.sweep_of(slot));
-  };
-  change_sweep(a, pose_a, before_a, after_a);
-  change_sweep(b, pose_b, before_b, after_b);
-
-  const Vec3<Real> fall_a = fall_after(stage, a, pair.time), fall_b = fall_after(stage, b, pair.time);
-  BodyMotion motion_a = stage.motion_of(a), motion_b = stage.motion_of(b);
-  motion_a.linear_velocity -= fall_a;
-  motion_b.linear_velocity -= fall_b;
-  Real approach_of_state = k_zero;
+  if (!resolves(least, parting, stage.approach)) return false;
+  a.set_sweep();
+  b.set_sweep();
+  a.read_state(pair.time);
+  b.read_state(pair.time);
   // If the solver has pushed the pair apart, a slow remaining approach is left to the solver in the next tick.
   const Real least_of_state = stage.is_pushed(pair.key) ? contact.rebound_min : k_zero;
-  if (resolves(least_of_state, k_zero, motion_a, motion_b, approach_of_state)) {
-    motion_a.linear_velocity += fall_a;
-    motion_b.linear_velocity += fall_b;
-    stage.report.clamped += clamp_angular_velocity(properties_a, pose_a.rotation, motion_a) +
-                            clamp_angular_velocity(properties_b, pose_b.rotation, motion_b);
-    if (stage.dynamic(a)) stage.motion_of(a) = motion_a;
-    if (stage.dynamic(b)) stage.motion_of(b) = motion_b;
+  Real approach_of_state = k_zero;
+  if (resolves(least_of_state, k_zero, approach_of_state)) {
+    a.set_state();
+    b.set_state();
   }
 
   if (again) return true;
-  stage.first_approach = approach;
+  stage.first_approach = stage.approach;
   ++stage.report.impacts;
-  if (pair.impacts < UINT8_MAX) ++pair.impacts;
-  stage.add_hit(
-      {pair.key, pair.time, point_of(geometry, pose_a, pose_b, properties_a, properties_b), geometry.normal, approach});
+  static_assert(2 * k_impacts_max <= UINT8_MAX, "no body of the pair has more");
+  ++pair.impacts;
+  stage.add_hit({pair.key, pair.time,
+                 point_of(geometry, pose_a, pose_b, stage.bodies.properties[slot_a], stage.bodies.properties[slot_b]),
+                 geometry.normal, stage.approach});
   return true;
 }
 
@@ -276,17 +307,26 @@ bool ImpactStage::resolve(ImpactPair& pair, bool undecided, const BodyPose& pose
   return false;
 }
 
-void ImpactStage::pass_on(const ImpactPair& first, Fraction time) {
-  const uint64_t first_key = first.key;
+void ImpactStage::pass_on(ImpactPair& first, Fraction time) {
+  constexpr Real k_sum_max = 4.0;
+  Real last = first_approach, sum = k_zero;
   for (int round = 0; round < k_rounds_max && !is_spent(); ++round) {
     bool again = false;
     uint64_t after = 0;
-    while (ImpactPair* pair = next_touching(*this, first_key, after)) {
+    while (ImpactPair* pair = next_touching(*this, first.key, after)) {
       after = pair->key;
-      if (round == 0 && after == first_key) continue;
-      again = collide_again(*this, *pair, time) || again;
+      if (after != first.key) again = collide_again(*this, *pair, time) || again;
     }
     if (!again) break;
+    // Where a heavy body presses a light one against a third, these approaches form a geometric series with a ratio
+    // near 1. `sum` is the rest of the series, as a multiple of the next approach.
+    approach = k_zero;
+    rebound = sum;
+    collide_again(*this, first, time);
+    const bool converges = rebound == k_zero && approach > k_zero && approach < last;
+    rebound = k_zero;
+    sum = converges ? min(divide(approach, last - approach), k_sum_max) : k_zero;
+    last = approach;
   }
 }
 

@@ -65,6 +65,8 @@ struct ImpactStage {
   uint32_t changed_count = 0;
   uint32_t changed_first = 0;  ///< no body with a lower slot has k_mark_changed
   Real first_approach = 0.0;   ///< closing speed of the impact that is being resolved, m/s
+  Real approach = 0.0;         ///< closing speed at the last attempt to resolve a pair, m/s
+  Real rebound = 0.0;          ///< a lower bound of the coefficient of restitution, for approaches of all speeds
   ImpactReport report = {};
 #if DETENT_TASKS
   SpareMemory spare = {bodies.spare};
@@ -192,7 +194,7 @@ struct ImpactStage {
   /// Propagates the impulse of the pair `first` to the pairs that share a body with it and have collided in this tick,
   /// and back, until no pair approaches or the limit of rounds is reached. Without this, a body between two others
   /// would be hit back and forth without end. The pairs are processed in the order of their keys.
-  void pass_on(const ImpactPair& first, Fraction time);
+  void pass_on(ImpactPair& first, Fraction time);
 };
 
 #if DETENT_TASKS

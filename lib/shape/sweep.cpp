@@ -128,11 +128,12 @@ bool advance_part(Coord& coordinate, Real whole, Fraction part) {
 
 }  // namespace
 
+Vec3<Real> part_of(const Vec3<Real>& whole, Fraction part) {
+  return {part_of(whole.x, part), part_of(whole.y, part), part_of(whole.z, part)};
+}
+
 Sweep sweep_part(const Sweep& sweep, Fraction part) {
-  const auto of = [part](const Vec3<Real>& v) {
-    return Vec3<Real>{part_of(v.x, part), part_of(v.y, part), part_of(v.z, part)};
-  };
-  return {of(sweep.displacement), of(sweep.rotation_vector)};
+  return {part_of(sweep.displacement, part), part_of(sweep.rotation_vector, part)};
 }
 
 uint32_t advance_along(const Sweep& sweep, Fraction part, BodyPose& pose) {

@@ -38,6 +38,7 @@ uint32_t sweep_end_position(BodyPose& pose, const Sweep& sweep);
 
 /// The fraction `part` of a number. Rounding: to nearest.
 Real part_of(Real whole, Fraction part);
+Vec3<Real> part_of(const Vec3<Real>& whole, Fraction part);
 
 /// The motion up to the fraction `part` of the step. For the whole step it is the sweep itself, bit for bit.
 /// Rounding: to nearest.

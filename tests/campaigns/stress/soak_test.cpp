@@ -142,13 +142,13 @@ struct Ending {
   uint64_t digest;
 };
 #if defined(DETENT_FX64)
-constexpr Ending k_endings[] = {{10000, 0xd6550379e8434e59}, {1000000, 0x3e49a58891e88b73}};
+constexpr Ending k_endings[] = {{10000, 0xb4d6e4c680a1bb66}, {1000000, 0x12fcf70b6df46bcc}};
 #elif defined(DETENT_FX32)
-constexpr Ending k_endings[] = {{10000, 0xa92f48a65c20cae3}, {1000000, 0x0f6f20fcb6f19443}};
+constexpr Ending k_endings[] = {{10000, 0x839df34ed826e54b}, {1000000, 0x0271b0fcb02e411f}};
 #elif defined(DETENT_F32)
-constexpr Ending k_endings[] = {{10000, 0x9f4b1356e7cffe74}};
+constexpr Ending k_endings[] = {{10000, 0xab048d11df9b7387}};
 #else
-constexpr Ending k_endings[] = {{10000, 0x910d99d6eaff93d4}};
+constexpr Ending k_endings[] = {{10000, 0x67a62152a247fe6e}};
 #endif
 
 /// A million ticks if DETENT_FULL is set.
