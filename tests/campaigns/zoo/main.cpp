@@ -16,6 +16,7 @@ using namespace detent_zoo;
 namespace {
 
 constexpr int k_exit_good = 0, k_exit_bad = 1;
+constexpr unsigned long long k_seeds_max = 1000000;
 constexpr const char* k_folder = DETENT_ROOT "/tests/campaigns/zoo/scenes";
 
 struct Options {
@@ -79,7 +80,10 @@ std::string list_file_of(const Options& options) {
 int play_random(const Options& options) {
   RandomRun run;
   unsigned long long first = 0, last = 0;
-  if (sscanf(options.random.c_str(), "%llu:%llu", &first, &last) != 2) return cannot("--random needs FIRST:LAST");
+  char rest = 0;
+  if (sscanf(options.random.c_str(), "%llu:%llu%c", &first, &last, &rest) != 2 || first > last)
+    return cannot("--random needs FIRST:LAST");
+  if (last - first >= k_seeds_max) return cannot("--random takes at most " + std::to_string(k_seeds_max) + " seeds");
   if (options.renew && (first != 1 || last != k_seeds_tested))
     return cannot("the list has the seeds of the test: --random 1:" + std::to_string(k_seeds_tested));
   run.first = first;
@@ -184,5 +188,6 @@ int main(int argc, char** argv) {
       ->excludes(renew)
       ->excludes(markdown);
   CLI11_PARSE(app, argc, argv);
+  if (engines_of(options).empty()) return cannot("no such configuration in this build");
   return options.random.empty() ? run(options) : play_random(options);
 }
