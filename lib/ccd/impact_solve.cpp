@@ -235,7 +235,8 @@ bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geo
   if (again) return true;
   stage.first_approach = stage.approach;
   ++stage.report.impacts;
-  static_assert(2 * k_impacts_max <= UINT8_MAX, "no body of the pair has more");
+  // A body stops at k_impacts_max. A kinematic body then hits it at most once at each shrink depth.
+  static_assert(2 * k_impacts_max <= UINT8_MAX);
   ++pair.impacts;
   stage.add_hit({pair.key, pair.time,
                  point_of(geometry, pose_a, pose_b, stage.bodies.properties[slot_a], stage.bodies.properties[slot_b]),

@@ -193,7 +193,8 @@ struct ImpactStage {
   bool resolve(ImpactPair& pair, bool undecided, const BodyPose& pose_a, const BodyPose& pose_b);
   /// Propagates the impulse of the pair `first` to the pairs that share a body with it and have collided in this tick,
   /// and back, until no pair approaches or the limit of rounds is reached. Without this, a body between two others
-  /// would be hit back and forth without end. The pairs are processed in the order of their keys.
+  /// would be hit back and forth without end. A round processes the other pairs in the order of their keys, then
+  /// `first`.
   void pass_on(ImpactPair& first, Fraction time);
 };
 
