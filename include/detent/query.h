@@ -38,7 +38,9 @@ struct QueryHit {
   Fraction fraction = 0.0;  ///< casts: the fraction of the displacement until the hit, never late
   Real distance = 0.0;      ///< query_closest(): the distance of the surfaces, m; 0 where they overlap
   Position point = {};      ///< on the body's surface, m, world; 0 from query_bounds()
-  Vec3<Unit> normal = {};   ///< of the body at `point`, outward, world; 0 if the cores overlap, and from query_bounds()
+  /// The body's outward normal at `point`, world; 0 if the hit is undecided, if the cores (the shapes without their
+  /// rounding, distance.h) overlap, and from query_bounds().
+  Vec3<Unit> normal = {};
   /// The triangle that is hit, if the body is a terrain (terrain() in shape.h); else, and from query_bounds(),
   /// UINT32_MAX.
   uint32_t triangle = UINT32_MAX;

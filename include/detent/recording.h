@@ -272,10 +272,11 @@ class Player {
   /// Skips the recording up to the world's tick. Errors: as start, and out_of_range (a tick before the seed or after
   /// the end).
   Status start_at(World& world);
-  /// Makes the calls of one tick, steps, and compares the digest. At the end it makes the calls after the last tick and
-  /// compares the final digest. If a call fails in this world, or returns an id other than the recorded one, the status
-  /// is digest_differs: the checksums are right, so the states must differ. Errors: bad_argument (not started, or
-  /// finished), truncated, corrupt, digest_differs, sink_failed; `result` is then untouched.
+  /// Makes the calls of one tick, steps, and compares the digest. One more call after the last tick does not step: it
+  /// makes the calls that were recorded after that tick, compares the final digest, and sets `result.finished`. If a
+  /// call fails in this world, or returns an id other than the recorded one, the status is digest_differs: the
+  /// checksums are right, so the states must differ. Errors: bad_argument (not started, or finished), truncated,
+  /// corrupt, digest_differs, sink_failed; `result` is then untouched.
   Status next_tick(World& world, TickResult& result) { return advance(&world, result); }
   /// As next_tick, but without a world: reads and checks the bytes of one tick, and makes no calls. The first call
   /// after `open` begins at the seed.

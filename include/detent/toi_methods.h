@@ -21,10 +21,12 @@ enum class ToiMethod {
   /// As constant_angular_velocity, but both bodies move in the world frame. The other methods move B relative to A.
   /// Both formulations are from Coumans.
   world_space,
-  constant_angular_velocity,  ///< as corotating, but the axis of two edges rotates so that it is also exact at contact
-  mirtich,                    ///< advances until the bounds of both motions add up to the distance of the shapes
-  baraff,                     ///< finds the root of the separation along a witness axis; may miss a contact
-  feature_pairs,              ///< polytopes: finds the first contact of all pairs of features
+  /// As corotating, but an axis that belongs to no face (between vertices, edges or rims) rotates so that it also
+  /// separates these features at the time of contact.
+  constant_angular_velocity,
+  mirtich,        ///< advances until the bounds of both motions add up to the distance of the shapes
+  baraff,         ///< finds the root of the separation along a witness axis; may miss a contact
+  feature_pairs,  ///< polytopes: finds the first contact of all pairs of features
   redon,  ///< polytopes: as feature_pairs, but for another motion: the screw motion from the start pose to the end pose
   /// Polytopes: as feature_pairs, but for another motion: rotation by normalised lerp. Finds roots numerically; may
   /// miss a contact.

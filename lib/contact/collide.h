@@ -36,7 +36,7 @@ struct ContactGeometry {
   Vec3<Unit> normal;  ///< from A to B
   uint32_t count = 0;
   bool seam = false;    ///< the contact lies at a seam: it was removed, or its normal was replaced
-  bool turns = false;   ///< the normal belongs to no face: it rotates as a round shape slides past the other shape
+  bool turns = false;   ///< the normal is that of no face or edge pair: it rotates as the shapes slide past each other
   bool near = false;    ///< no point was found, but parts of the shapes may be within the margin
   bool capped = false;  ///< a search reached its iteration cap, hull bytes are missing, or a position is out of range
   ContactGeometryPoint point[k_manifold_points_max];

@@ -84,7 +84,8 @@ class Reference {
   bool holds(const Vec32& point) const { return holds(flat(point)); }
   /// Converts a point in the block to the reference's axes. The kind of the result is not meaningful.
   AreaPoint over(const Vec32& point) const;
-  /// The height of a point in the block above the reference. Beyond the end of an edge: the height above that end.
+  /// The height above the reference of `point`, which is given in the block. For a point beyond an end of a reference
+  /// edge: the height above this end.
   int64_t height_of(const Vec32& point) const;
   /// Twice the midpoint between the two cores at a point of the contact area, in the block.
   Vec64 twice_middle(const AreaPoint& point) const;

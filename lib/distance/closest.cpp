@@ -6,7 +6,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Sets `result` to whether the distance certainly exceeds `distance_max` (2^-46 m) plus `slack` ulps of the block.
+/// Sets `result` to whether the distance certainly exceeds `distance_max` + `slack`. Units: `distance_max` in 2^-46 m,
+/// `slack` in ulps of the pair's block (support.h).
 Status farther_by(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, int64_t distance_max,
                   int32_t slack, bool& result, DistanceCache* cache) {
   RestingPair pair;

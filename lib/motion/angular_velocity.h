@@ -21,8 +21,9 @@ inline constexpr Real k_speed_max = 16384.0;  ///< m/s, in the state: each compo
 /// has a surface speed of at least half the limit.
 inline constexpr Real k_angular_velocity_max = 32768.0;
 inline constexpr Real k_speed_work_max = 32768.0;  ///< m/s, velocity during a solve
-/// During a solve, m/s: limit of each component of L / (m u). No inverse inertia is below 1, so the magnitude of w u is
-/// at least that of L / (m u).
+/// Limit of each component of the stored momentum L / (m u) during a solve, m/s. The stored inverse inertia m u^2 / I
+/// is at least 1 about each axis that is not locked. So |w u| is at least |L / (m u)|, if L has no component about a
+/// locked axis.
 inline constexpr Real k_angular_velocity_work_max = 65536.0;
 
 /// Clamps each component to +-limit. Returns the number of components that changed.

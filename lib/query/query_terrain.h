@@ -23,9 +23,9 @@ inline AskedSurface asked_terrain(const World& world, const BodyProperties& prop
   return {code, code.view(world.hooks.assets.assets[properties.asset].bytes), {pose.position, pose.rotation}};
 }
 
-/// The first triangle that the shape hits on its path. A point is cast as a ray. `touched` is set if there is one;
-/// `hit` receives its data except the body. Errors: those of the narrow phase, for any of the nearby triangles; then
-/// neither changes.
+/// Finds the first triangle that the shape hits on its path. A point is cast as a ray. Sets `touched` to whether a
+/// triangle is hit. If so, sets all of `hit` but the body. Errors: those of the narrow phase, for any of the nearby
+/// triangles; `touched` and `hit` are then unchanged.
 Status cast_on_terrain(const AskedSurface& ground, const QueryShape& shape, const Motion& motion, QueryHit& hit,
                        bool& touched);
 /// The triangle nearest to the shape, which is searched up to the distance `distance_max`, m, so that a hit may also be

@@ -24,8 +24,8 @@ Vec32 to_local_29(const Matrix32& rotation, const Vec32& v) {
   return {component(rotation.column[0]), component(rotation.column[1]), component(rotation.column[2])};
 }
 
-/// The contribution of one body to the separation along an axis and to the curvature bound K. The axis rotates by
-/// `angular_velocity` over the horizon.
+/// The contribution of one body to the separation along an axis, and to K, the bound on the second derivative of this
+/// separation (Separation::curvature()). The axis rotates by `angular_velocity`, rad, over the horizon (Horizon).
 class Side {
  public:
   /// `sign`: -1 for A, which contributes its farthest point along the axis; 1 for B, which contributes its farthest
@@ -99,7 +99,8 @@ class Side {
   int64_t core_;
   int shift_, sign_;
   bool present_, still_;
-  Vec32 relative_;                                ///< u = w - angular_velocity, Q29
+  /// u = w - angular_velocity, Q29; w: the body's own angular velocity.
+  Vec32 relative_;
   int64_t speed_ = 0, twist_ = 0, across_ = 0;    ///< |u|, |w x angular_velocity|, |n x u|, Q29
   Vec32 normal_ = {0, 0, 0}, slope_ = {0, 0, 0};  ///< n and n x u, Q29, in the body's axes
   int64_t value_ = 0;

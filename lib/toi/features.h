@@ -28,10 +28,11 @@ struct NearFeatures {
 bool axis_between(const MovingPair& pair, const NearFeatures& features, const Frames& frames, const Vec32& towards,
                   int& side, Vec32& normal);
 
-/// As advance(), but the axis rotates so that it follows the axis predicted between the features at later poses. So the
-/// axis is still valid at the time of contact, also for edges and vertices. Returns the time up to which the cores are
-/// certain to stay `floor` apart. Counts passes and calls of gjk(). `progress`: in, the time that the previous call
-/// gained, which limits the length of the horizon tried; out, the time that this call gained.
+/// As advance(), but predicts the axis between the same features at a later pose, and rotates the axis towards it. So
+/// the axis is still valid at the time of contact, also for edges and vertices. Returns the time up to which the cores
+/// are certain to stay `floor` apart. Adds its passes and calls of gjk() to those in `result`. Before the call,
+/// `progress` is the time that the previous call gained, which limits the length of the horizon; afterwards, the time
+/// that this call gained.
 int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Simplex& simplex,
                          const NearFeatures& features, const GjkResult& nearest, int32_t floor, int64_t& progress,
                          TimeOfImpact& result);

@@ -40,7 +40,8 @@ struct ScrewMotion {
   }
   /// t (g x y + t g x (g x y)) / (1 + t^2 g^2).
   Vec64 turned(const Vec64& y, int64_t time, int64_t inverse_weight) const;
-  /// The position, relative to A's, of the point that is `x` from B's position at the start.
+  /// The position at `time`, relative to A's position and in A's frame, of the point that lies at `x` from B's position
+  /// in the start pose. `inverse_weight`: inverse_weight_at(time).
   Vec64 at(const Vec64& x, int64_t time, int64_t inverse_weight) const;
   /// Bound on the distance of a path from its chord over the whole step, for points within `radius` of B's position.
   int64_t bend(int64_t radius) const;

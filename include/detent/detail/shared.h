@@ -6,8 +6,8 @@
 /// DETENT_PASSING marks a function that only passes its arguments to a DETENT_SHARED function: at -Os it is always
 /// inlined.
 ///
-/// DETENT_SPECIALISED marks an inline function that is fast if its arguments are constants: it is always inlined, but
-/// at -Os it is shared.
+/// DETENT_SPECIALISED marks an inline function that is fast if its arguments are constants. At -Os it is the same as
+/// DETENT_SHARED. At other optimisation levels the function is always inlined.
 #if !defined(__OPTIMIZE_SIZE__)
 #define DETENT_SHARED
 #define DETENT_PASSING
