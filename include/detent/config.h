@@ -67,7 +67,7 @@ inline constexpr Config k_config = Config::f64;
 
 /// The simulation version. It is increased with every change that can alter the result of a step, and so a digest.
 /// Stored in snapshots and recordings.
-inline constexpr uint32_t k_simulation_version = 34;
+inline constexpr uint32_t k_simulation_version = 35;
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -58,9 +58,10 @@ struct ContactManifold {
 /// cases. Here h is the least half extent of the thinner core:
 /// - The face normal is within 2^-13 rad of the axis.
 /// - The cores overlap or nearly touch, and the face normal separates them as well as the axis, to within h / 64.
-/// - The cores overlap or nearly touch at crossing edges, the face normal is within 2^-3 rad of the axis and separates
-///   the cores as well as the axis, to within h / 16 or about 1/64 of the extent of both shapes together, whichever is
-///   more, and the points on the face are at most h / 64 deeper.
+/// - The cores overlap or nearly touch at crossing edges, the face normal is within 2^-3 rad of the axis, and the
+/// points
+///   on the face are at most h / 64 deeper than the overlap along the axis. Beyond the sides of the face, an edge may
+///   be deeper below it.
 ///
 /// Faces of a hull that are coplanar to within 1/64 of the hull's half thickness count as one face, with the normal of
 /// their common outline.

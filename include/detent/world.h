@@ -211,8 +211,8 @@ struct LossReport {
   /// Pairs beyond the pair pool. The pairs whose bounds overlap least are dropped. They have no contacts in this tick,
   /// but continuous collision tests them all.
   uint32_t pairs = 0;
-  /// Contacts beyond Capacity::contacts, or beyond 16 for one pair. The shallowest are dropped: they are not solved
-  /// in this tick.
+  /// Contacts beyond Capacity::contacts, or beyond 16 for one pair if their normals are too different to be merged. The
+  /// shallowest are dropped: they are not solved in this tick.
   uint32_t contacts = 0;
   /// The part of `contacts` that was beyond 16 for one pair. A larger capacity does not prevent this.
   uint32_t contact_parts = 0;

@@ -31,10 +31,12 @@ inline namespace DETENT_NAMESPACE {
 
 inline constexpr uint32_t k_impacts_max = 32;  ///< per body and tick
 /// `k_impacts_max_spent`: limit of impacts per body and tick once the budget of work is spent. The unit of work is one
-/// computed time of impact, or one attempt to resolve an impact. The budget is k_impact_work_min plus
-/// k_impact_work_times the sum of four numbers: the moving bodies and, from the first test of all pairs, the computed
-/// times of impact, the skipped pairs and the pairs kept apart by their contacts.
-inline constexpr uint32_t k_impacts_max_spent = 16, k_impact_work_times = 8, k_impact_work_min = 512;
+/// computed time of impact, or one attempt to resolve an impact. The budget is
+///
+///     k_impact_work_min + k_impact_work_times (moving bodies + tests + skipped + kept_apart)
+///
+/// where `tests`, `skipped` and `kept_apart` are the counts in ImpactReport after the first test of all pairs.
+inline constexpr uint32_t k_impacts_max_spent = 16, k_impact_work_times = 8, k_impact_work_min = 768;
 /// A jointed body's sweep is marked with k_mark_jointed times the number of the body's island. These numbers begin at
 /// 1. All other marks are less than k_mark_jointed.
 inline constexpr uint32_t k_mark_jointed = 128;

@@ -22,29 +22,25 @@ int32_t depth_in_units(int64_t depth, int exponent) {
 
 int32_t less_depth(int32_t size, int32_t depth, int32_t least) { return size - least > depth ? size - depth : least; }
 
-/// Makes the shape smaller by `depth`, 2^-46 m, on all sides. This is not possible for a hull or cone, which is halved
-/// in size `halvings` times instead.
+/// Makes the shape smaller by `depth`, 2^-46 m, on all sides. This is not possible for a cone or hull. The smaller one
+/// of a cone's radius and half length becomes smaller by `depth`, down to a quarter, and the other in proportion. A
+/// hull is halved in size `halvings` times.
 void shrink(int64_t depth, int halvings, Convex& convex) {
-  switch (convex.type) {
-    case ShapeType::sphere:
-    case ShapeType::capsule:
-    case ShapeType::triangle:
-      convex.radius = less_depth(convex.radius, depth_in_units(depth, convex.radius_exponent), 0);
-      break;
-    case ShapeType::box:
-      for (int32_t& size : convex.size) size = less_depth(size, depth_in_units(depth, convex.exponent), 1);
-      break;
-    case ShapeType::cylinder:
-      for (int i = 0; i < 2; ++i) {
-        convex.size[i] = less_depth(convex.size[i], depth_in_units(depth, convex.exponent), 1);
-      }
-      break;
-    case ShapeType::cone:
-    case ShapeType::hull:
-      convex.exponent -= halvings;
-      break;
-    default:
-      break;
+  const ShapeType type = convex.type;
+  if (type == ShapeType::hull) {
+    convex.exponent -= halvings;
+    return;
+  }
+  const bool has_sizes = type == ShapeType::box || type == ShapeType::cylinder || type == ShapeType::cone;
+  const int32_t by = depth_in_units(depth, has_sizes ? convex.exponent : convex.radius_exponent);
+  if (!has_sizes) {
+    convex.radius = less_depth(convex.radius, by, 0);
+    return;
+  }
+  const int32_t thinner = min(convex.size[0], convex.size[1]), left = less_depth(thinner, by, thinner >> 2);
+  for (int i = 0; i < (type == ShapeType::box ? 3 : 2); ++i) {
+    int32_t& size = convex.size[i];
+    size = type == ShapeType::cone ? static_cast<int32_t>(int64_t{size} * left / thinner) : less_depth(size, by, 1);
   }
 }
 
@@ -74,7 +70,7 @@ Real swing_bound(const BodyProperties& properties, const Vec3<Real>& rotation_ve
 
 Real next_shrink_depth(Real extent, Real shrink_depth) {
   if (shrink_depth == Real(0.0)) return scale_by_power(extent, -10);
-  if (shrink_depth < scale_by_power(extent, -4)) return scale_by_power(shrink_depth, 2);
+  if (shrink_depth < scale_by_power(extent, -5)) return scale_by_power(shrink_depth, 1);
   return shrink_depth + scale_by_power(extent, -5);
 }
 

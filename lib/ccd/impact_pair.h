@@ -17,8 +17,8 @@ inline namespace DETENT_NAMESPACE {
 /// sliding pair is not stopped, and the bodies still cannot pass through each other. `extent` is the smaller body's
 /// smallest diameter.
 ///
-/// Returns the shrink depth after `shrink_depth`. The first one is 1/1024 of the extent. Up to 1/16 of the extent each
-/// is four times the one before; then each is larger by 1/32 of the extent.
+/// Returns the shrink depth after `shrink_depth`. The first one is 1/1024 of the extent. Up to 1/32 of the extent each
+/// is twice the one before; then each is larger by 1/32 of the extent.
 Real next_shrink_depth(Real extent, Real shrink_depth);
 /// The shrink depth, m, for a pair that is in contact, `depth` deep, at the start of the tick: 1/8 of the extent, or
 /// half of `depth` plus 1/64 of the extent if that is more. In the second case, the pair cannot sink deeper by more
@@ -62,9 +62,10 @@ Real motion_bound(const SweptBody& body, Fraction time);
 /// Makes the body's shape smaller by `shrink_depth`, m, on all sides. Returns false if the shape is not available.
 bool shrink_convex(const AssetTable& assets, const BodyProperties& properties, Real shrink_depth, Convex& convex);
 
-/// Makes a given shape smaller by `shrink_depth`, m. A hull or cone is instead halved in size `halvings` times.
+/// Makes a given shape smaller by `shrink_depth`, m. A cone is scaled so that the smaller one of its radius and half
+/// length becomes smaller by `shrink_depth`, down to a quarter. A hull is halved in size `halvings` times.
 bool shrink_convex(Real shrink_depth, int halvings, Convex& convex);
-/// The number of halvings of a hull or cone at shrink depth `shrink_depth`, for a body with this extent.
+/// The number of halvings of a hull at shrink depth `shrink_depth`, for a body with this extent.
 int shrink_halvings(Real shrink_depth, Real extent);
 
 /// The shrink depths that a pair is tested at.
@@ -80,7 +81,7 @@ struct ShrunkenCores {
 struct Meeting {
   TimeOfImpact impact = {};
   uint32_t tests = 0;  ///< times of impact computed
-  Real depth = 0.0;    ///< largest shrink depth beyond the first that was used, m; 0: none was
+  Real depth = 0.0;    ///< the largest shrink depth tested after the first, m; 0: only the first; if `left`: the last
   bool left = false;   ///< some parts overlap so deeply that they are not tested
   bool stuck = false;  ///< the pair collided in this tick and does not separate: it would pass through
 

@@ -12,6 +12,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int k_rounds_max = 64;  ///< rounds of propagating an impulse
+constexpr int k_free_rounds = 8;  ///< of these, the first ones, in which no body counts as held
 
 /// For a pair with several contacts, takes the contact whose normal is nearest to the normal of the impact. If the
 /// impact has no normal, takes the deepest contact.
@@ -196,30 +197,43 @@ class ImpactedBody {
   Vec3<Real> fall_ = k_zero_vector;  ///< what gravity adds after the impact, m/s
 };
 
+/// If an impact at `time` has stopped the lighter one of two dynamic bodies at a fixed body, replaces it by that body,
+/// of several by the one with the lowest slot. So the heavier body is stopped as if the lighter one were a part of the
+/// fixed body, which takes the impulse.
+void hold_lighter(const ImpactStage& stage, Fraction time, uint32_t (&slots)[2]) {
+  const Span<const BodyProperties> properties = stage.bodies.properties;
+  const uint32_t which = less(properties[slots[0]].mass, properties[slots[1]].mass) ? 0 : 1;
+  if (!stage.dynamic(slots[1 - which])) return;
+  const uint32_t lighter = slots[which];
+  uint32_t lowest = UINT32_MAX;
+  stage.for_each_impact(lighter, [&](const ImpactPair& pair) {
+    const uint32_t low = pair_low(pair.key), other = low == lighter ? pair_high(pair.key) : low;
+    if (other < lowest && pair.last == time && type_of(properties[other]) == BodyType::fixed) lowest = other;
+  });
+  if (lowest != UINT32_MAX) slots[which] = lowest;
+}
+
 /// Separates the bodies of a pair at the given points. Returns false if the bodies do not approach there; the attempt
 /// counts as work, but changes no body. `again`: the impulse is propagated from another pair. Then an approach of at
 /// most 2^-12 of first_approach is ignored, parting_speed() is not demanded, and the impact is not counted or recorded.
-/// Sets ImpactStage::approach.
+/// `holds`: see hold_lighter().
 bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geometry, const BodyPose& pose_a,
-                const BodyPose& pose_b, bool again) {
+                const BodyPose& pose_b, bool again, bool holds) {
   stage.take_work(1);
-  const uint32_t slot_a = pair_low(pair.key), slot_b = pair_high(pair.key);
-  ImpactedBody a(stage, slot_a, pose_a), b(stage, slot_b, pose_b);
+  uint32_t slots[2] = {pair_low(pair.key), pair_high(pair.key)};
+  if (holds) hold_lighter(stage, pair.time, slots);
+  ImpactedBody a(stage, slots[0], pose_a), b(stage, slots[1], pose_b);
   ContactWork contact;
   contact.state = {};
   contact.state.point_count = static_cast<uint8_t>(geometry.count);
   make_rows(stage.settings, a.row_body(), b.row_body(), geometry, k_zero, contact);
-  const Scaled rebound = scaled_from(stage.rebound);
-  if (less(contact.restitution, rebound)) {
-    contact.restitution = rebound;
-    contact.rebound_min = k_zero;
-  }
   const Real parting = again ? k_zero : parting_speed(stage, pair, contact, geometry.count);
   const Real least = again ? scale_by_power(stage.first_approach, -12) : k_zero;
   const auto resolves = [&](Real least_approach, Real leave, Real& found) {
     return resolve_impact(contact, geometry.count, least_approach, leave, a.impact_body(), b.impact_body(), found);
   };
-  if (!resolves(least, parting, stage.approach)) return false;
+  Real approach = k_zero;
+  if (!resolves(least, parting, approach)) return false;
   a.set_sweep();
   b.set_sweep();
   a.read_state(pair.time);
@@ -233,14 +247,15 @@ bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geo
   }
 
   if (again) return true;
-  stage.first_approach = stage.approach;
+  stage.first_approach = approach;
   ++stage.report.impacts;
   // A body stops at k_impacts_max. A kinematic body then hits it at most once at each shrink depth.
   static_assert(2 * k_impacts_max <= UINT8_MAX);
   ++pair.impacts;
-  stage.add_hit({pair.key, pair.time,
-                 point_of(geometry, pose_a, pose_b, stage.bodies.properties[slot_a], stage.bodies.properties[slot_b]),
-                 geometry.normal, stage.approach});
+  stage.add_hit(
+      {pair.key, pair.time,
+       point_of(geometry, pose_a, pose_b, stage.bodies.properties[slots[0]], stage.bodies.properties[slots[1]]),
+       geometry.normal, approach});
   return true;
 }
 
@@ -260,8 +275,8 @@ ImpactPair* next_touching(const ImpactStage& stage, uint64_t first_key, uint64_t
 }
 
 /// Resolves a pair that may still touch. Returns false if its bodies do not touch or do not approach. If they touch,
-/// both are moved to `time`.
-bool collide_again(ImpactStage& stage, ImpactPair& pair, Fraction time) {
+/// both are moved to `time`. `holds`: see hold_lighter().
+bool collide_again(ImpactStage& stage, ImpactPair& pair, Fraction time, bool holds) {
   const uint32_t slots[2] = {pair_low(pair.key), pair_high(pair.key)};
   const BodyPose pose_a = pose_at(stage.body(slots[0]), time), pose_b = pose_at(stage.body(slots[1]), time);
   ContactGeometry geometry;
@@ -271,7 +286,7 @@ bool collide_again(ImpactStage& stage, ImpactPair& pair, Fraction time) {
   for (const uint32_t slot : slots) {
     if (geometry.count != 0 && stage.dynamic(slot)) stage.move_to(slot, time);
   }
-  if (geometry.count == 0 || !resolve_at(stage, pair, geometry, pose_a, pose_b, true)) {
+  if (geometry.count == 0 || !resolve_at(stage, pair, geometry, pose_a, pose_b, true, holds)) {
     pair.time = next_time;
     return false;
   }
@@ -300,34 +315,25 @@ void ImpactStage::add_hit(const ImpactHit& hit) {
 bool ImpactStage::resolve(ImpactPair& pair, bool undecided, const BodyPose& pose_a, const BodyPose& pose_b) {
   ContactGeometry geometry;
   find_points(*this, pair, pose_a, pose_b, geometry);
-  if (geometry.count != 0 && resolve_at(*this, pair, geometry, pose_a, pose_b, false)) return false;
+  if (geometry.count != 0 && resolve_at(*this, pair, geometry, pose_a, pose_b, false, false)) return false;
   if (undecided || !is_direction(pair.normal)) return false;
   if (geometry.seam && pair.farther_in == 0) return true;
   take_point(*this, pair, pose_a, pose_b, geometry);
-  resolve_at(*this, pair, geometry, pose_a, pose_b, false);
+  resolve_at(*this, pair, geometry, pose_a, pose_b, false, false);
   return false;
 }
 
 void ImpactStage::pass_on(ImpactPair& first, Fraction time) {
-  constexpr Real k_sum_max = 4.0;
-  Real last = first_approach, sum = k_zero;
   for (int round = 0; round < k_rounds_max && !is_spent(); ++round) {
+    const bool holds = round >= k_free_rounds;
     bool again = false;
     uint64_t after = 0;
     while (ImpactPair* pair = next_touching(*this, first.key, after)) {
       after = pair->key;
-      if (after != first.key) again = collide_again(*this, *pair, time) || again;
+      if (after != first.key) again = collide_again(*this, *pair, time, holds) || again;
     }
     if (!again) break;
-    // Where a heavy body presses a light one against a third, these approaches form a geometric series with a ratio
-    // near 1. `sum` is the rest of the series, as a multiple of the next approach.
-    approach = k_zero;
-    rebound = sum;
-    collide_again(*this, first, time);
-    const bool converges = rebound == k_zero && approach > k_zero && approach < last;
-    rebound = k_zero;
-    sum = converges ? min(divide(approach, last - approach), k_sum_max) : k_zero;
-    last = approach;
+    collide_again(*this, first, time, holds);
   }
 }
 

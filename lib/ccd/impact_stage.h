@@ -65,8 +65,6 @@ struct ImpactStage {
   uint32_t changed_count = 0;
   uint32_t changed_first = 0;  ///< no body with a lower slot has k_mark_changed
   Real first_approach = 0.0;   ///< closing speed of the impact that is being resolved, m/s
-  Real approach = 0.0;         ///< closing speed at the last attempt to resolve a pair, m/s
-  Real rebound = 0.0;          ///< a lower bound of the coefficient of restitution, for approaches of all speeds
   ImpactReport report = {};
 #if DETENT_TASKS
   SpareMemory spare = {bodies.spare};

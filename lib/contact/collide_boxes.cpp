@@ -234,10 +234,11 @@ uint32_t choose_corners(const FaceVertex* polygon, uint32_t count, ManifoldReduc
 
 Unit sign_of(Unit value) { return value < Unit(0.0) ? Unit(-1.0) : Unit(1.0); }
 
-/// Finds the contact of the box `incident` with a face of the box `reference`: the face that is perpendicular to axis
-/// `face` of `reference`, on the side of `incident`.
-__attribute__((noinline)) void collide_face(const PairShape& reference, const PairShape& incident, int face,
-                                            bool reference_is_a, const PairFrame& frame, PairManifold& manifold) {
+/// Finds the contact on a face of A, or of B: the face that is perpendicular to axis `face` of this box, on the side of
+/// the other box.
+__attribute__((noinline)) void collide_face(const PairFrame& frame, bool reference_is_a, int face,
+                                            PairManifold& manifold) {
+  const PairShape &reference = reference_is_a ? frame.a : frame.b, &incident = reference_is_a ? frame.b : frame.a;
   const HalfExtents half = half_of(reference.size), other = half_of(incident.size);
   const Vec3<Unit> between = incident.centre - reference.centre;
   const Vec3<Unit>& axis = reference.rotation.column[face];
@@ -317,14 +318,12 @@ Segment support_edge(const PairShape& box, int edge, const Vec3<Unit>& direction
 
 /// Replaces the contact of two crossing edges by the contact of the face whose normal is nearest to `normal`. Crossing
 /// edges touch in one point, and this point can jump from one side of the face to the other between two ticks. Returns
-/// false, with `manifold` unchanged, in these cases, where p is preference_of() of the boxes: no face normal is within
-/// 2^-3 rad; the edges are more than p apart; the separation along the face normal is below that of the edges by more
-/// than 4 p and more than k_leaning_room, which matters if an edge is much longer than the other box; the face has
-/// fewer than two contact points; its deepest point is more than p deeper, or more than p / 16 shallower, than the
-/// edges.
+/// false, with `manifold` unchanged, in these cases, where p is `preference`: no face normal is within 2^-3 rad; the
+/// edges are more than p apart; the face has fewer than two contact points; its deepest point is more than p deeper, or
+/// more than p / 16 shallower, than the edges. An edge may reach any depth beyond the sides of the face.
 __attribute__((noinline)) bool collide_leaning_face(const PairFrame& frame, const Vec3<Unit>& normal, Unit separation,
-                                                    PairManifold& manifold) {
-  constexpr Unit k_leaning = 1.0 - 0x1p-7, k_leaning_room = 0x1p-7;
+                                                    Unit preference, PairManifold& manifold) {
+  constexpr Unit k_leaning = 1.0 - 0x1p-7;
   Unit most = k_leaning;
   int face = -1;
   for (int i = 0; i < 6; ++i) {
@@ -333,15 +332,9 @@ __attribute__((noinline)) bool collide_leaning_face(const PairFrame& frame, cons
     most = along;
     face = i;
   }
-  if (face < 0) return false;
-  const bool is_a = face < 3;
-  const Unit preference = preference_of(half_of(frame.a.size), half_of(frame.b.size));
-  const AxisTable table = table_of(frame);
-  const Unit along_face = is_a ? face_a_separation(table, face) : face_b_separation(table, face - 3);
-  const Unit room = max(scale_by_power(preference, 2), k_leaning_room);
-  if (separation > preference || along_face < separation - room) return false;
+  if (face < 0 || separation > preference) return false;
   PairManifold found;
-  collide_face(is_a ? frame.a : frame.b, is_a ? frame.b : frame.a, is_a ? face : face - 3, is_a, frame, found);
+  collide_face(frame, face < 3, face < 3 ? face : face - 3, found);
   Unit deepest = 1.0;
   for (uint32_t i = 0; i < found.count; ++i) deepest = min(deepest, found.point[i].separation);
   const bool sound = found.count > 1 && !(deepest < separation - preference) &&
@@ -350,12 +343,12 @@ __attribute__((noinline)) bool collide_leaning_face(const PairFrame& frame, cons
   return sound;
 }
 
-void collide_edges(const PairFrame& frame, const SeparatingAxis& axis, PairManifold& manifold) {
+void collide_edges(const PairFrame& frame, const SeparatingAxis& axis, Unit preference, PairManifold& manifold) {
   Unit size = 0.0;
   if (!normalise(cross(frame.a.rotation.column[axis.i], frame.b.rotation.column[axis.j]), manifold.normal, size))
     return;
   if (dot(manifold.normal, frame.b.centre) < Unit(0.0)) manifold.normal = -manifold.normal;
-  if (collide_leaning_face(frame, manifold.normal, axis.separation, manifold)) return;
+  if (collide_leaning_face(frame, manifold.normal, axis.separation, preference, manifold)) return;
   uint32_t which_a = 0, which_b = 0;
   const Segment edge_a = support_edge(frame.a, axis.i, manifold.normal, which_a);
   const Segment edge_b = support_edge(frame.b, axis.j, -manifold.normal, which_b);
@@ -380,17 +373,11 @@ void collide_boxes(const PairFrame& frame, PairManifold& manifold) {
   const Unit room = max(scale_by_power(preference, 1), min(frame.sunk, scale_by_power(preference, 3)));
   manifold.seam = frame.smooth_seams && is_box_sliver(table, face, axis, room);
   if (manifold.seam) return;
-  switch (axis.kind) {
-    case AxisKind::face_a:
-      collide_face(frame.a, frame.b, axis.i, true, frame, manifold);
-      break;
-    case AxisKind::face_b:
-      collide_face(frame.b, frame.a, axis.j, false, frame, manifold);
-      break;
-    case AxisKind::edges:
-      collide_edges(frame, axis, manifold);
-      break;
-  }
+  const bool is_a = axis.kind == AxisKind::face_a;
+  if (axis.kind == AxisKind::edges)
+    collide_edges(frame, axis, preference, manifold);
+  else
+    collide_face(frame, is_a, is_a ? axis.i : axis.j, manifold);
   // Axes that separate the boxes by at most the margin do not show whether two vertices are as near.
   manifold.near = manifold.count == 0;
 }

@@ -92,7 +92,7 @@ class Builder {
   void build_over_face(const Feature& face, BlockManifold& manifold);
 
  private:
-  bool parts_as_well(const Half& half, const Half& other, const Vec32& normal, int64_t room) const;
+  bool parts_as_well(const Half& half, const Half& other, const Vec32& normal) const;
   bool find_face(const Half& half, const Half& other, Feature& face) const;
   static uint32_t name_on_axis(const Half& half);
   bool build_on_half_space(BlockManifold& manifold) const;
@@ -130,11 +130,11 @@ class Builder {
   bool only_over_ = false;  ///< points that are not over the reference are left out
 };
 
-/// Whether the separation of the cores along `normal` is at least their separation along the axis minus `room`.
-bool Builder::parts_as_well(const Half& half, const Half& other, const Vec32& normal, int64_t room) const {
+/// Whether the separation of the cores along `normal` is at least their separation along the axis minus preference_.
+bool Builder::parts_as_well(const Half& half, const Half& other, const Vec32& normal) const {
   const Vec32 top = add(half.centre, support(half.placed, normal).point);
   const Vec32 bottom = add(other.centre, support(other.placed, negate(normal)).point);
-  return dot(normal, subtract(bottom, top)) >> 30 >= axis_.separation - room;
+  return dot(normal, subtract(bottom, top)) >> 30 >= axis_.separation - preference_;
 }
 
 /// Finds the face of `half` on which the contact lies. Returns false if there is none.
@@ -144,7 +144,7 @@ bool Builder::find_face(const Half& half, const Half& other, Feature& face) cons
   if (dot(normal, half.outward) <= 0) return false;
   if (!is_parallel(normal, half.outward, k_upright)) {
     if (axis_.separation > preference_) return false;
-    if (!parts_as_well(half, other, normal, preference_)) return false;
+    if (!parts_as_well(half, other, normal)) return false;
   }
   return true;
 }
@@ -254,14 +254,11 @@ bool Builder::build_on_face(BlockManifold& manifold) const {
 
 /// Finds the contact on a face that is slightly tilted against the axis. Crossing edges would instead touch in one
 /// point, which can jump from one side of the face to the other between two ticks. The cores must be at most
-/// preference_ apart. The face normal must be within 2^-3 rad of the axis. The separation along it must be smaller by
-/// at most 4 preference_ or, which matters if an edge is much longer than the other core, k_leaning_room. The face must
-/// have at least two points. The separation of its deepest point must be larger by at most drop_, or smaller by at most
-/// preference_, than that along the axis.
+/// preference_ apart. The face normal must be within 2^-3 rad of the axis. The face must have at least two points. The
+/// separation of its deepest point must be larger by at most drop_, or smaller by at most preference_, than that along
+/// the axis. Beyond the sides of the face an edge may reach any depth.
 __attribute__((noinline)) bool Builder::build_on_leaning_face(BlockManifold& manifold) const {
   constexpr int64_t k_leaning = (int64_t{1} << 60) - (int64_t{1} << 53);  // 2^-3 rad
-  constexpr int64_t k_leaning_room = k_one >> 7;
-  const int64_t room = 4 * preference_ > k_leaning_room ? 4 * preference_ : k_leaning_room;
   const int64_t radii = pair_.radius_a + pair_.radius_b;
   const int64_t least = pair_.metres(axis_.separation - preference_) - radii;
   const int64_t most = pair_.metres(axis_.separation + drop_) - radii;
@@ -272,9 +269,7 @@ __attribute__((noinline)) bool Builder::build_on_leaning_face(BlockManifold& man
     Feature face, incident;
     // build_on_face() has searched for the face.
     if (half.face_name >> 10 != static_cast<uint32_t>(FeatureType::face)) continue;
-    if (dot(half.face_normal, half.outward) < k_leaning || !parts_as_well(half, other, half.face_normal, room) ||
-        !half.find_face(face))
-      continue;
+    if (dot(half.face_normal, half.outward) < k_leaning || !half.find_face(face)) continue;
     find_incident(other, negate(face.normal), incident);
     const Reference reference(half.placed, half.centre, face, face.normal, radius_in_block(other.placed));
     BlockManifold found = {};

@@ -12,6 +12,8 @@ namespace {
 constexpr int k_plane_power = 4;  ///< planes at most 2^-4 of the half thickness apart count as one plane
 /// Dot product, Q28, from which on normals are equal: 2^-12 rad.
 constexpr int32_t k_equal_cosine = (1 << 28) - (1 << 3);
+/// Dot product, Q28, from which on a touch joins another plane if there is no room for one more: 2^-1 rad.
+constexpr int32_t k_near_cosine = (1 << 28) - (1 << 25);
 constexpr uint32_t k_edge_key = 0x80000000u;
 
 /// Whether a group with these values is kept rather than another one: doubtful groups go first, then the shallowest.
@@ -32,6 +34,8 @@ uint32_t normal_name(const Vec32& normal) {
 
 TerrainManifolds::Group* TerrainManifolds::group_for(const TerrainTouch& touch, int64_t plane) {
   const Vec32& normal = touch.manifold.normal;
+  Group* nearest = nullptr;
+  int32_t most = k_near_cosine;
   for (uint32_t i = 0; i < count_; ++i) {
     Group& group = group_[i];
     const int32_t cosine = static_cast<int32_t>(dot(group.normal, normal) >> 32);
@@ -40,9 +44,13 @@ TerrainManifolds::Group* TerrainManifolds::group_for(const TerrainTouch& touch, 
         (apart < 0 ? -apart : apart) <= size_ >> k_plane_power) {
       return &group;
     }
+    if (cosine <= most || group.doubtful != touch.doubtful) continue;
+    most = cosine;
+    nearest = &group;
   }
   Group* fresh = &group_[count_];
   if (count_ == k_terrain_manifolds_max) {
+    if (nearest != nullptr) return nearest;
     fresh = &group_[0];
     for (Group& group : group_)
       fresh = comes_before(fresh->doubtful, fresh->deepest, group.doubtful, group.deepest) ? &group : fresh;

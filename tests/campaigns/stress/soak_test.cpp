@@ -142,13 +142,13 @@ struct Ending {
   uint64_t digest;
 };
 #if defined(DETENT_FX64)
-constexpr Ending k_endings[] = {{10000, 0xb4d6e4c680a1bb66}, {1000000, 0x12fcf70b6df46bcc}};
+constexpr Ending k_endings[] = {{10000, 0x8e78874479180050}, {1000000, 0x1ef984b51fb04484}};
 #elif defined(DETENT_FX32)
-constexpr Ending k_endings[] = {{10000, 0x839df34ed826e54b}, {1000000, 0x0271b0fcb02e411f}};
+constexpr Ending k_endings[] = {{10000, 0xa2591f9f4dbccd4d}, {1000000, 0xa96758afe1721f04}};
 #elif defined(DETENT_F32)
-constexpr Ending k_endings[] = {{10000, 0xab048d11df9b7387}};
+constexpr Ending k_endings[] = {{10000, 0x35349a36509b7e02}};
 #else
-constexpr Ending k_endings[] = {{10000, 0x67a62152a247fe6e}};
+constexpr Ending k_endings[] = {{10000, 0xf1b548c678778686}};
 #endif
 
 /// A million ticks if DETENT_FULL is set.

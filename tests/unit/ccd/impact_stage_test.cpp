@@ -167,14 +167,14 @@ DETENT_TEST(impact_stage, three_balls_in_a_row_pass_a_blow_on_in_one_tick) {
 /// A heavy ball strikes a light one in front of a wall at 20 m/s. An impulse that passes once between the heavy ball
 /// and the wall stops only the light ball's share of the momentum.
 DETENT_TEST(impact_stage, a_light_ball_before_a_wall_stops_a_heavy_one) {
-  for (const double ratio : {4.0, 30.0, 200.0}) {
+  for (const double ratio : {4.0, 30.0, 200.0, 20000.0}) {
     Lab lab({3, 8, 0}, weightless());
     lab.add(wall(0));
     BodyDef heavy = ball(0.1, -0.506, 20, 0);
     heavy.density = scaled(1000 * ratio);
     const BodyId light = lab.add(ball(0.1, -0.106, 0, 0)), striker = lab.add(heavy);
     EXPECT_TRUE(lab.run(1).complete()) << ratio;
-    EXPECT_LT(fabs(lab.motion(striker).linear_velocity[0]), ratio < 100 ? 0.03 : 1) << ratio;
+    EXPECT_LT(fabs(lab.motion(striker).linear_velocity[0]), 0.03) << ratio;
     EXPECT_LT(lab.motion(striker).position[0], -0.3) << ratio;
     EXPECT_LT(lab.motion(light).position[0], -0.1) << ratio;
   }

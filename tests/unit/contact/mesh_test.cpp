@@ -408,7 +408,7 @@ DETENT_TEST(mesh_contact, over_rough_ground_the_deepest_point_is_as_near_as_the_
   EXPECT_GT(met, 10u);
 }
 
-DETENT_TEST(mesh_contact, what_finds_no_room_is_counted_and_the_deepest_stay) {
+DETENT_TEST(mesh_contact, what_finds_no_room_joins_the_nearest_normal_and_the_deepest_stay) {
   // Narrow ridges side by side under one large box.
   const Ground ground(detent_terrains::ground(
       24, 0.1, [](double x, double z) { return 0.03 * sin(37 * x + 11 * z) + 0.02 * sin(29 * z + 3 * x) - 0.01 * x; }));
@@ -417,12 +417,33 @@ DETENT_TEST(mesh_contact, what_finds_no_room_is_counted_and_the_deepest_stay) {
   body.pose.position = position_near({{0, 0.25 + 0.065, 0}});
   const TerrainContacts contacts = contacts_of(ground, body, 0.2);
   EXPECT_EQ(contacts.count, k_terrain_manifolds_max);
-  EXPECT_GT(contacts.dropped, 0u);
+  EXPECT_EQ(contacts.dropped, 0u);
   for (uint32_t i = 1; i < contacts.count; ++i) EXPECT_LT(contacts.contact[i - 1].key, contacts.contact[i].key);
   Vector normal{};
   const double right = distance_from(ground, body, normal);
   EXPECT_GT(right, 0);
   EXPECT_NEAR(deepest_of(contacts), right, 1e-3);
+}
+
+DETENT_TEST(mesh_contact, what_finds_no_room_and_no_near_normal_is_counted_and_the_deepest_stay) {
+  TerrainManifolds found(int64_t{1} << 40, 5);
+  constexpr uint32_t k_touches = k_terrain_manifolds_max + 1;
+  for (uint32_t i = 0; i < k_touches; ++i) {
+    TerrainTouch touch = {};
+    touch.triangle = i;
+    touch.deepest = i == 3 ? 0 : -int64_t{1} - i;  // the fourth is the shallowest
+    // Directions on a spiral around a ball: all at least 0.6 rad apart.
+    const double height = 1 - (2 * i + 1.0) / k_touches, across = sqrt(1 - height * height), angle = 2.4 * i;
+    touch.manifold.normal = {static_cast<int32_t>(cos(angle) * across * (1 << 30)),
+                             static_cast<int32_t>(sin(angle) * across * (1 << 30)),
+                             static_cast<int32_t>(height * (1 << 30))};
+    touch.manifold.count = 1;
+    touch.manifold.point[0] = {{0, 0, 0}, {0, 0, 0}, touch.deepest, i + 1};
+    found.add(touch);
+  }
+  EXPECT_EQ(found.dropped(), 1u);
+  ASSERT_EQ(found.finish(), k_terrain_manifolds_max);
+  for (uint32_t i = 0; i < k_terrain_manifolds_max; ++i) EXPECT_NE(found.manifold(i).triangle, 3u);
 }
 
 DETENT_TEST(mesh_contact, what_is_certain_finds_room_among_deeper_contacts_that_are_doubtful) {
