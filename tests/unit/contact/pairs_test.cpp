@@ -179,7 +179,7 @@ void judge_many(Form form_a, Form form_b, uint64_t seed) {
   ::testing::Test::RecordProperty("error_steps", ::testing::PrintToString(largest));
   ::testing::Test::RecordProperty("deepest_lost", ::testing::PrintToString(seen.deepest_lost));
   ::testing::Test::RecordProperty("missed_ahead", ::testing::PrintToString(seen.missed_ahead));
-  EXPECT_LE(40 * seen.leaning, seen.touching);
+  EXPECT_LE(25 * seen.leaning, seen.touching);
   EXPECT_LE(seen.gap, 2 * k_error_steps);  // a normal errs by the error of a length, times size over distance
   EXPECT_LE(seen.beyond, k_error_steps);
   EXPECT_LE(seen.too_deep, k_error_steps);
