@@ -69,7 +69,7 @@ struct Impact {
   Real shown(int i, Part k) const { return response.part[response_index(i, k)]; }
 
   void push(uint32_t i) {
-    const Real after = max(normal_impulse[i] + (target[i] - velocity(i)) * contact.inverse_mass[i], k_zero);
+    const Real after = max(normal_impulse[i] + (target[i] - velocity(i)) * contact.normal_mass[i], k_zero);
     const Real change = after - normal_impulse[i];
     if (change == k_zero) return;
     normal_impulse[i] = after;

@@ -139,7 +139,7 @@ void couple(const PairResponse& response, ContactWork& work) {
       coupling[i][k] = coupling[k][i] = sum;
       most = max(most, abs(sum));
     }
-    work.inverse_mass[i] = fine(mass_of(coupling[i][i]));
+    work.normal_mass[i] = fine(mass_of(coupling[i][i]));
   }
   work.coupling_exponent = exponent_for(most);
   for (uint32_t i = 0; i < count; ++i) {
@@ -267,7 +267,7 @@ Unit place_points(const ContactGeometry& geometry, Vec3<Unit> ContactGeometryPoi
   const Unit share = share_of_points(geometry.count);
   Unit sum = 0.0;  // a quarter of the mean square
   for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
-    work.x[i] = work.y[i] = work.inverse_mass[i] = Unit(0.0);
+    work.x[i] = work.y[i] = work.normal_mass[i] = Unit(0.0);
     if (i >= geometry.count) continue;
     const Vec3<Unit> offset = geometry.point[i].*arm - middle;
     const Vec3<Unit> place = fine_arm({dot(offset, work.tangent[0]), dot(offset, work.tangent[1]), Unit(0.0)});
@@ -371,7 +371,7 @@ void leave_to_impact(const StepSettings& settings, const RowBody& a, const RowBo
     rebounds = rebounds || work.approach[i] <= -work.rebound_min;
   }
   if (!rebounds) return;
-  for (Unit& mass : work.inverse_mass) mass = Unit(0.0);
+  for (Unit& mass : work.normal_mass) mass = Unit(0.0);
 }
 
 PairResponse respond_exactly(const BodyProperties& a, const Quat& rotation_a, const BodyProperties& b,

@@ -43,7 +43,7 @@ struct RowBody {
 ///
 /// All K are stored times the reference mass m, the mass of the lighter dynamic body: `coupling` has the K of the
 /// normal rows of each pair of points, `response` the K of the parts of a wrench at the middle of the points. The
-/// effective masses `inverse_mass` and `twist_mass` are 1 / (m K), with the K of a row with itself. `friction_mass` and
+/// effective masses `normal_mass` and `twist_mass` are 1 / (m K), with the K of a row with itself. `friction_mass` and
 /// `rolling_mass` are those of a pair of rows: 1 / (m k), with the greatest eigenvalue k of their 2 x 2 matrix K.
 /// The solver accumulates the impulse of each row, within these limits:
 ///
@@ -62,7 +62,7 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
 /// masses to zero. The reason: the solver would distribute the impulse among all bodies in contact, while continuous
 /// collision resolves impacts one after the other.
 void leave_to_impact(const StepSettings& settings, const RowBody& a, const RowBody& b, ContactWork& work);
-inline bool is_left_to_impact(const ContactWork& work) { return work.inverse_mass[0] == Unit(0.0); }
+inline bool is_left_to_impact(const ContactWork& work) { return work.normal_mass[0] == Unit(0.0); }
 
 /// Recomputes the responses and effective masses for the current inverse inertias of A and B. The other members stay
 /// unchanged.

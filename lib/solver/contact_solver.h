@@ -52,7 +52,7 @@ struct Normals {
       // A single row needs no softness.
       softness[i] =
           count == 1 ? Kind::zero() : Kind::factor(times(Kind::mantissa(contact, i, i), Kind::unit(k_rigid_softness)));
-      may[i] = Kind::is_positive(contact.inverse_mass[i]);
+      may[i] = Kind::is_positive(contact.normal_mass[i]);
     }
   }
   Number speed(uint32_t i) const { return rounded(velocity[i], contact.coupling_exponent); }

@@ -233,7 +233,7 @@ struct LaneContact {
   Vec3<LaneUnits<count>> middle_a, middle_b;
   LaneUnits<count> response[k_responses];
   static constexpr int response_exponent = 0;  // `response` includes the exponent
-  LaneUnits<count> x[k_manifold_points_max], y[k_manifold_points_max], inverse_mass[k_manifold_points_max];
+  LaneUnits<count> x[k_manifold_points_max], y[k_manifold_points_max], normal_mass[k_manifold_points_max];
   LaneStoredInt32<count> apart[k_manifold_points_max];
   LaneReals<count> separation[k_manifold_points_max], impulse_max[k_manifold_points_max];
   LaneReals<count> friction_impulse[2], angular_impulse[3];

@@ -59,7 +59,7 @@ DETENT_LANES_INLINE void read_rows(Contacts<count> from, LaneContact<count>& to)
     to.static_pair = words.word(DETENT_AT(static_pair)) != 0;
     words.units(DETENT_AT(x), to.x);
     words.units(DETENT_AT(y), to.y);
-    words.units(DETENT_AT(inverse_mass), to.inverse_mass);
+    words.units(DETENT_AT(normal_mass), to.normal_mass);
     to.inverse_mass_a = words.share(DETENT_AT(inverse_mass_a));
     to.inverse_mass_b = words.share(DETENT_AT(inverse_mass_b));
   }
@@ -197,7 +197,7 @@ DETENT_LANES_INLINE void clear_absent_points(LaneContact<count>& to) {
     for (uint32_t i = static_cast<uint32_t>(to.points[lane]); i < to.state.point_count; ++i) {
       for (LaneUnits<count>& element : to.coupling[i]) element.v[lane] = -0.0f;
       to.coupling[i][i].v[lane] = 1;  // a pivot
-      to.x[i].v[lane] = to.inverse_mass[i].v[lane] = 0;
+      to.x[i].v[lane] = to.normal_mass[i].v[lane] = 0;
       to.y[i].v[lane] = -0.0f;
       to.separation[i].v[lane] = 0;
     }

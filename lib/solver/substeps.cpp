@@ -30,14 +30,14 @@ Scaled square_of(uint32_t n) {
 /// (`jointed`), the sag accounts for at most k_jointed_sag_substeps.
 Scaled needed(const StepSettings& settings, const ContactWork& contact, const BodyProperties& a,
               const BodyProperties& b, uint32_t run, bool jointed) {
-  Scaled contact_frequency = 0.0;
+  Scaled effective_mass = 0.0;
   for (uint32_t i = 0; i < contact.state.point_count; ++i)
-    contact_frequency = add(contact_frequency, scaled_from(contact.inverse_mass[i]));
-  if (contact.static_pair != 0) contact_frequency = scaled_by_power(contact_frequency, 2);  // twice the frequency
-  if (!is_positive(contact_frequency)) return Scaled(0.0);
+    effective_mass = add(effective_mass, scaled_from(contact.normal_mass[i]));
+  if (contact.static_pair != 0) effective_mass = scaled_by_power(effective_mass, 2);  // twice the frequency
+  if (!is_positive(effective_mass)) return Scaled(0.0);
   const Scaled extent = scaled_from(min(shape_extent(a), shape_extent(b)));
   const Scaled load = scaled_from(contact.state.load);
-  const Scaled rate = multiply(divide(load, multiply(contact_frequency, extent)), settings.substeps_per_rate);
+  const Scaled rate = multiply(divide(load, multiply(effective_mass, extent)), settings.substeps_per_rate);
   Scaled sag = divide(rate, settings.resting_penetration);
   if (jointed) {
     const Scaled sag_max = square_of(k_jointed_sag_substeps);

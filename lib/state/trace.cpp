@@ -29,7 +29,7 @@ constexpr Field k_contact_work_fields[] = {
     DETENT_FIELD(TraceContact, normal),
     DETENT_FIELD(TraceContact, middle_a),
     DETENT_FIELD(TraceContact, middle_b),
-    DETENT_FIELD(TraceContact, inverse_mass),
+    DETENT_FIELD(TraceContact, normal_mass),
     DETENT_FIELD(TraceContact, response),
 };
 constexpr Field k_body_work_fields[] = {
@@ -112,7 +112,7 @@ void visit_contact(const ContactWork& work, uint32_t place, const TraceVisitor& 
   contact.normal = work.normal;
   contact.middle_a = work.middle_a;
   contact.middle_b = work.middle_b;
-  memcpy(contact.inverse_mass, work.inverse_mass, sizeof contact.inverse_mass);
+  memcpy(contact.normal_mass, work.normal_mass, sizeof contact.normal_mass);
   memcpy(contact.response, work.response, sizeof contact.response);
   give_value(visitor, k_contact_work, place, contact);
 }

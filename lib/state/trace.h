@@ -47,7 +47,7 @@ struct TraceContact {
   Real approach[k_manifold_points_max];
   Vec3<Unit> normal;
   Vec3<Unit> middle_a, middle_b;
-  Unit inverse_mass[k_manifold_points_max];
+  Unit normal_mass[k_manifold_points_max];
   Unit response[21];
 };
 /// The data of a moving body in the work space of a step.

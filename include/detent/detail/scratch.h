@@ -121,7 +121,7 @@ struct alignas(8) ContactWork {
   // beyond the number of points.
   alignas(sizeof(Unit)) Unit x[k_manifold_points_max];
   Unit y[k_manifold_points_max];
-  Unit inverse_mass[k_manifold_points_max];  ///< effective masses of the points, in (0, 1]
+  Unit normal_mass[k_manifold_points_max];   ///< effective masses of the points, in (0, 1]
   uint32_t apart[k_manifold_points_max];     ///< 1 if the point does not touch in the substep
   uint32_t static_pair;                      ///< 1 if only one of the bodies is dynamic
   uint32_t angular_rows;                     ///< 0: none; 1: twist friction; 3: twist and rolling friction

@@ -100,7 +100,7 @@ struct Rows : Samples {
       const Vec3<Unit> place = arm();
       work.x[i] = has_point(i) ? place.x : Unit(0.0);
       work.y[i] = has_point(i) ? place.y : Unit(0.0);
-      work.inverse_mass[i] = has_point(i) && below(8) != 0 ? fine(positive(part())) : Unit(0.0);
+      work.normal_mass[i] = has_point(i) && below(8) != 0 ? fine(positive(part())) : Unit(0.0);
       for (uint32_t k = 0; k <= i; ++k) {
         // A sum of four of them fits. In float only a definite matrix has finite results.
         const bool own = i == k;
@@ -251,7 +251,7 @@ DETENT_TEST(lane_rows, that_a_contact_does_not_have_change_nothing) {
   for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
     contact.separation[i] = Real(16.0);
     contact.state.normal_impulse[i] = i < 2 ? Real(0x1p-20) : k_zero;
-    contact.inverse_mass[i] = i < 2 ? Unit(0.5) : Unit(0.0);
+    contact.normal_mass[i] = i < 2 ? Unit(0.5) : Unit(0.0);
   }
   contact.push_max = Real(64.0);
   for (uint32_t i = 0; i < 2; ++i) {

@@ -358,7 +358,7 @@ struct Pile {
       contact.state.body_a = i;
       contact.state.body_b = i + 1;
       contact.state.point_count = 4;
-      for (Unit& mass : contact.inverse_mass) mass = unit(0.25);
+      for (Unit& mass : contact.normal_mass) mass = unit(0.25);
       contacts.push_back(contact);
       order.push_back({});
       order.back().contact = i;
