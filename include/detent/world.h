@@ -214,7 +214,7 @@ struct LossReport {
   /// Contacts beyond Capacity::contacts, or beyond 16 for one pair if their normals are too different to be merged. The
   /// shallowest are dropped: they are not solved in this tick.
   uint32_t contacts = 0;
-  /// The part of `contacts` that was beyond 16 for one pair. A larger capacity does not prevent this.
+  /// The part of `contacts` that was beyond 16 for one pair and not merged. A larger capacity does not prevent this.
   uint32_t contact_parts = 0;
   /// Couplings between joints that had no room in the joint solver, because the joints form too many loops. The joints
   /// that they couple become softer.

@@ -25,6 +25,7 @@ struct TerrainManifold {
 
 /// Collects the touches of a shape, triangle by triangle or part by part, into a few manifolds: all touches in one
 /// plane form one manifold. A touch on a face and one at an edge are in one plane only if their normals are equal.
+/// If there is no room for another manifold, a touch joins the one with the nearest normal, if that is within 2^-1 rad.
 /// Touches are added one at a time, and their number is not limited. The contact points in one plane must have distinct
 /// features.
 class TerrainManifolds {
