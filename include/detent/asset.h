@@ -20,14 +20,14 @@ struct Asset {
 /// (asset_mismatch).
 struct AssetTable {
   const Asset* assets = nullptr;  ///< `count` assets; they must outlive every world bound to them
-  /// Number of assets. If it is below Capacity::assets, the remaining indices are missing (asset_missing).
+  /// Number of assets. If it is below Capacity::assets, bind_asset() refuses the remaining indices (asset_missing).
   uint32_t count = 0;
 };
 
-/// The frame of a cooked hull's vertices. Stored: a value is never reused.
+/// The frame of a cooked hull's vertices. Stored in cooked hulls: a value is never reused.
 enum class HullFrame : uint32_t {
   principal = 1,  ///< origin at the centre of mass, principal axes: for bodies
-  source = 2,     ///< the frame of the points that it was cooked from: for queries; it has no inertia
+  source = 2,     ///< the frame of the points that the hull was cooked from: for queries; such a hull has no inertia
 };
 
 /// The properties of a cooked hull (docs/hull.md). The same in every configuration.
@@ -38,7 +38,7 @@ struct HullInfo {
   HullFrame frame = HullFrame::principal;  ///< frame of the vertices; a dynamic body needs `principal`
   int32_t exponent = 0;                    ///< the hull's unit of length is 2^exponent m
   int32_t core_radius = 0;      ///< greatest distance of a vertex from the origin, in 2^-30 of the unit, rounded up
-  int32_t volume_mantissa = 0;  ///< the volume is volume_mantissa 2^volume_exponent m^3
+  int32_t volume_mantissa = 0;  ///< the volume is volume_mantissa x 2^volume_exponent m^3
   int32_t volume_exponent = 0;  ///< see volume_mantissa
   double origin[3] = {};        ///< the body's origin in the source frame, m
   int32_t rotation[4] = {};     ///< x, y, z, w in 2^-30: v_source = rotation v_body rotation* + origin
@@ -55,8 +55,8 @@ struct MeshInfo {
   uint32_t node_count = 0;      ///< nodes of the mesh's bounding volume tree
   int32_t exponent = 0;         ///< the unit of length is 2^exponent m; coordinates are in 2^-30 of this unit
   bool one_sided = false;       ///< bodies collide only with the side on which the corners are counter-clockwise
-  int32_t low[3] = {};          ///< least coordinates of the vertices
-  int32_t high[3] = {};         ///< greatest coordinates of the vertices
+  int32_t low[3] = {};          ///< least x, y and z of the vertices
+  int32_t high[3] = {};         ///< greatest x, y and z of the vertices
 };
 
 /// Checks all bytes of a cooked mesh and sets `info` to its properties. Errors: buffer_misaligned (to 8 bytes),
@@ -83,16 +83,16 @@ struct HeightFieldInfo {
 /// not_detent, format_unknown, truncated, corrupt, out_of_range (the exponent).
 Status height_field_info(const Asset& asset, HeightFieldInfo& info);
 
-/// The description stored in a cooked compound (docs/compound.md). The same in every configuration.
+/// The properties of a cooked compound (docs/compound.md). The same in every configuration.
 struct CompoundInfo {
   uint32_t child_count = 0;     ///< number of children, 1 to 64
   uint32_t hull_count = 0;      ///< number of children that are hulls; the others are balls and capsules
   int32_t exponent = 0;         ///< the compound's unit of length is 2^exponent m
   int32_t radius = 0;           ///< greatest distance of the surface from the origin, in 2^-30 of the unit, rounded up
   int32_t half_thickness = 0;   ///< least half thickness of a child, in 2^-30 of the unit, rounded down
-  int32_t volume_mantissa = 0;  ///< the volume is volume_mantissa 2^volume_exponent m^3
+  int32_t volume_mantissa = 0;  ///< the volume is volume_mantissa x 2^volume_exponent m^3
   int32_t volume_exponent = 0;  ///< see volume_mantissa
-  double origin[3] = {};        ///< m; the body's origin in the source frame
+  double origin[3] = {};        ///< the body's origin in the source frame, m
   int32_t rotation[4] = {};     ///< x, y, z, w in 2^-30: v_source = rotation v_body rotation* + origin
 };
 

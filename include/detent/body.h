@@ -14,9 +14,9 @@ inline namespace DETENT_NAMESPACE {
 
 struct World;
 
-/// Names a body by value. Null if both members are zero. Valid until the body is destroyed; a later body in the same
-/// slot has another generation. A slot whose generation would overflow is no longer used, and is counted in
-/// `WorldInfo::slots_retired`.
+/// Names a body by value. The id is null if both members are zero. It is valid until the body is destroyed; a later
+/// body in the same slot has another generation. A slot whose generation would overflow is no longer used, and is
+/// counted in `WorldInfo::slots_retired`.
 struct BodyId {
   uint32_t slot = 0;        ///< index + 1; 0 is null
   uint32_t generation = 0;  ///< 1 for the first body of a slot
@@ -38,9 +38,9 @@ constexpr uint64_t hash_of(BodyId id) { return uint64_t{id.generation} << 32 | i
 /// these tests allow.
 /// Source: the filter of Box2D (Catto).
 struct Filter {
-  uint32_t category = 1;  ///< bits: the categories of the body
-  uint32_t mask = ~0u;    ///< bits: the categories with which the body can collide
-  int32_t group = 0;      ///< 0: no group
+  uint32_t category = 1;  ///< bit set: the categories of the body
+  uint32_t mask = ~0u;    ///< bit set: the categories with which the body can collide
+  int32_t group = 0;      ///< number of the body's group; 0: no group
   uint32_t rule = 0;      ///< 0: no rule; else the number, from 1 on, of a rule in WorldHooks::filter_rules
   /// Whether all fields are equal.
   friend constexpr bool operator==(const Filter& a, const Filter& b) {
@@ -84,8 +84,8 @@ enum class RestitutionRule : uint32_t {
 struct Material {
   Real friction = Real(0.6);  ///< Coulomb's coefficient, [0, 16]
   Real restitution = 0.0;     ///< rebound speed over approach speed, [0, 1]
-  /// Torque over (normal force x half the pair's smaller extent), about any axis, [0, 16]. Half the extent of a ball is
-  /// its radius (WorldDef).
+  /// The largest torque of rolling resistance about any axis, divided by (normal force x half the pair's smaller
+  /// extent); [0, 16]. Half the extent of a ball is its radius (WorldDef).
   Real rolling_resistance = 0.0;
   /// The pair uses the smaller restitution if either material has the rule `smaller`.
   RestitutionRule restitution_rule = RestitutionRule::larger;
@@ -129,27 +129,27 @@ struct BodyDef {
   bool sensor = false;
 };
 
-/// A definition that creates the same body with its current pose and velocity. An inertia set by set_inertia() is not
-/// part of it. The numbers are as the state stores them: rounded by less than 2^-30 of their magnitude. For a
+/// Gets a definition that creates the same body with its current pose and velocity. An inertia set by set_inertia() is
+/// not part of it. The numbers are as the state stores them: rounded by less than 2^-30 of their magnitude. For a
 /// non-dynamic body that never had a mass, `mass` is 0.
 Status get_body_def(const World& world, BodyId id, BodyDef& def);
-/// BodyDef::type.
+/// Gets BodyDef::type.
 Status get_type(const World& world, BodyId id, BodyType& type);
-/// BodyDef::shape. A size that the shape's type does not use has its default value.
+/// Gets BodyDef::shape. A size that the shape's type does not use has its default value.
 Status get_shape(const World& world, BodyId id, Shape& shape);
-/// BodyDef::material.
+/// Gets BodyDef::material.
 Status get_material(const World& world, BodyId id, Material& material);
-/// BodyDef::linear_damping and angular_damping, 1/s.
+/// Gets BodyDef::linear_damping and angular_damping, 1/s.
 Status get_damping(const World& world, BodyId id, Real& linear, Real& angular);
-/// BodyDef::gravity_scale.
+/// Gets BodyDef::gravity_scale.
 Status get_gravity_scale(const World& world, BodyId id, Real& scale);
-/// BodyDef::rotation_locks.
+/// Gets BodyDef::rotation_locks.
 Status get_rotation_locks(const World& world, BodyId id, uint32_t& locks);
-/// BodyDef::sensor.
+/// Gets BodyDef::sensor.
 Status get_sensor(const World& world, BodyId id, bool& sensor);
-/// The moments of inertia about the body's axes, kg m^2; 0 for fixed and kinematic bodies and about locked axes.
+/// Gets the moments of inertia about the body's axes, kg m^2; 0 for fixed and kinematic bodies and about locked axes.
 Status get_inertia(const World& world, BodyId id, Vec3<Scaled>& inertia);
-/// The velocity, m/s, world, of the point of the body at `arm` from its centre of mass. `arm`: m, world axes; each
+/// Gets the velocity, m/s, world, of the body's point at `arm` from its centre of mass. `arm`: m, world axes; each
 /// component within twice the bounding radius. Errors: out_of_range.
 Status get_velocity_at(const World& world, BodyId id, const Vec3<Real>& arm, Vec3<Real>& velocity);
 
@@ -173,39 +173,40 @@ Status set_mass(World& world, BodyId id, Scaled mass);
 /// set_shape(), set_type() and set_rotation_locks() restore those of the shape.
 /// Errors: bad_argument (the body is not dynamic), out_of_range.
 Status set_inertia(World& world, BodyId id, const Vec3<Scaled>& inertia);
-/// Sets the mass to `density` x the volume of the shape. `density`: kg/m^3, [2^-60, 2^60]. Otherwise as set_mass().
+/// As set_mass(), with the mass `density` x volume of the shape. `density`: kg/m^3, [2^-60, 2^60].
 /// Errors: out_of_range (the density or the mass), bad_argument (a half-space or a terrain).
 Status set_density(World& world, BodyId id, Scaled density);
-/// BodyDef::material. Errors: bad_argument (restitution_rule is no RestitutionRule), out_of_range.
+/// Sets BodyDef::material. Errors: bad_argument (restitution_rule is no RestitutionRule), out_of_range.
 Status set_material(World& world, BodyId id, const Material& material);
-/// BodyDef::linear_damping and angular_damping, 1/s, [0, 1024]. Errors: out_of_range.
+/// Sets BodyDef::linear_damping and angular_damping, 1/s, [0, 1024]. Errors: out_of_range.
 Status set_damping(World& world, BodyId id, Real linear, Real angular);
-/// BodyDef::gravity_scale, [-1024, 1024]. Errors: out_of_range.
+/// Sets BodyDef::gravity_scale, [-1024, 1024]. Errors: out_of_range.
 Status set_gravity_scale(World& world, BodyId id, Real scale);
-/// BodyDef::rotation_locks. The angular velocity about the other axes stays. An inertia set by set_inertia() is
-/// replaced by that of the shape. Errors: bad_argument (other bits than those of k_rotation_locks_all).
+/// Sets BodyDef::rotation_locks. The angular velocity about the axes that are not locked stays. The inertia of the
+/// shape replaces one that set_inertia() has set. Errors: bad_argument (other bits than those of k_rotation_locks_all).
 Status set_rotation_locks(World& world, BodyId id, uint32_t locks);
-/// BodyDef::sensor. If the value changes, the body's contacts end at once. A body that becomes a sensor leaves the
-/// sensors that it is within; if a sensor becomes an ordinary body, the bodies within it leave it. Neither causes leave
-/// events. Errors: pool_full (Capacity::sensed is 0), feature_missing.
+/// Sets BodyDef::sensor. If the value changes, the body's contacts end at once. A body that becomes a sensor leaves the
+/// sensors that it is within; if a sensor becomes an ordinary body, the bodies within it leave it. These changes cause
+/// no leave events. Errors: pool_full (Capacity::sensed is 0), feature_missing.
 Status set_sensor(World& world, BodyId id, bool sensor);
 
 /// Adds a force, N, world frame, that acts during the next step at the point `arm` from the centre of mass. `arm`: m,
 /// world axes; each component within twice the bounding radius. Errors: as apply_force().
 Status apply_force_at(World& world, BodyId id, const Vec3<Scaled>& force, const Vec3<Real>& arm);
-/// As apply_force_at(), but the force acts at `point`, a world position, m. Its distance from the centre of mass is at
-/// most twice the bounding radius in each component.
+/// As apply_force_at(), but the force acts at `point`, a world position, m, which is at most twice the bounding radius
+/// from the centre of mass in each component.
 /// Errors: as apply_force().
 Status apply_force_at_point(World& world, BodyId id, const Vec3<Scaled>& force, const Position& point);
-/// As apply_impulse_at(), but the impulse acts at `point`, a world position, m. Its distance from the centre of mass is
-/// at most twice the bounding radius in each component. Errors: as apply_force().
+/// As apply_impulse_at(), but the impulse acts at `point`, a world position, m, which is at most twice the bounding
+/// radius from the centre of mass in each component. Errors: as apply_force().
 Status apply_impulse_at_point(World& world, BodyId id, const Vec3<Scaled>& impulse, const Position& point);
 
 /// The parameters of explode().
 struct Explosion {
   Position centre = {0.0, 0.0, 0.0};  ///< m, world
   Real radius = 10.0;                 ///< m, [2^-14, 2^14]; the impulse decreases to 0 at this distance
-  /// N s per m^2 of a body's cross section, for a body at the centre; negative: pulls bodies towards the centre.
+  /// Impulse per area of a body's cross section, N s/m^2, for a body at the centre. A negative value pulls bodies
+  /// towards the centre.
   Scaled impulse = 100.0;
 };
 /// Applies an impulse at once to each dynamic body with d < radius, in slot order. The impulse acts at the centre of
@@ -213,9 +214,8 @@ struct Explosion {
 ///
 ///     impulse x pi b^2 x (1 - d / radius),   d = max(distance of the centres - b, 0),
 ///
-/// where b is the bounding radius of the body. A body whose centre of mass is at the centre of the explosion gets no
-/// impulse. Errors: out_of_range, also if the speed of a body would leave its range. After an error no body has got an
-/// impulse.
+/// where b is the bounding radius of the body, m. A body whose centre of mass is at the centre of the explosion gets no
+/// impulse. Errors: out_of_range, also if the speed of a body would leave its range; then no body gets an impulse.
 Status explode(World& world, const Explosion& explosion);
 
 /// Sets the velocity and angular velocity of a kinematic body so that the next step moves it to the target pose, by the

@@ -3,8 +3,8 @@
 /// Selects which of the four math configurations this translation unit uses.
 ///
 /// Define exactly one of DETENT_FX64, DETENT_FX32, DETENT_F32, DETENT_F64, or none for fx64. The CMake targets
-/// detent::fx64, ... define it. Every name lives in an inline namespace of the configuration. Therefore a program built
-/// for one configuration does not link with the library of another, and all four can be linked into one program.
+/// detent::fx64, ... define it. Every name is in an inline namespace of the configuration. Therefore code that was
+/// built for one configuration does not link with the library of another, and all four can be linked into one program.
 
 #if __cplusplus <= 201703L && (!defined(_MSVC_LANG) || _MSVC_LANG <= 201703L)
 #error "detent: needs C++20, or later (-std=c++20)"
@@ -65,8 +65,8 @@ inline constexpr Config k_config = Config::f32;
 inline constexpr Config k_config = Config::f64;
 #endif
 
-/// The simulation version. It is increased with every change that can alter the result of a step, and so a digest.
-/// Stored in snapshots and recordings.
+/// The simulation version. It increases with every change of the library that can alter the result of a step, and
+/// thereby a digest. Stored in snapshots and recordings.
 inline constexpr uint32_t k_simulation_version = 35;
 
 }  // namespace DETENT_NAMESPACE

@@ -43,7 +43,7 @@ Status make_hull(const Asset& asset, Real rounding, Convex& convex);
 /// frame; the farthest is 2^-14 to 2^15 m from the origin. The triangle may be degenerate. Errors: out_of_range.
 Status make_triangle(const Vec3<Real> (&corners)[3], Real rounding, Convex& convex);
 
-/// The vertices of the last simplex of a pair's query; the next query of the pair starts from them. Any content is
+/// The vertices of the last simplex of GJK for a pair, from which the next query of the pair starts. Any content is
 /// safe: it changes only the run time, and the choice among equally near points.
 struct DistanceCache {
   uint8_t count = 0;         ///< number of vertices in use; 0 when new
@@ -58,7 +58,7 @@ inline constexpr double k_distance_error = 0x1p-25;
 /// The closest points of two shapes.
 struct Closest {
   bool overlap = false;     ///< the shapes (cores rounded by their balls) overlap: the distance is 0
-  bool capped = false;      ///< iteration cap reached: `distance` is a lower bound; if it is 0, overlap is undecided
+  bool capped = false;      ///< GJK reached its cap: `distance` is a lower bound; if it is 0, overlap is undecided
   Real distance = 0.0;      ///< m, between the surfaces
   Vec3<Unit> normal = {};   ///< from A to B, world axes; zero if the cores overlap
   Vec3<Real> point_a = {};  ///< on A's surface, m, from A's position, world axes
@@ -67,16 +67,16 @@ struct Closest {
 };
 
 /// Computes the distance of two convex shapes and their closest points.
-/// Precision: k_distance_error of the pair's extent (the core diameters plus the distance of the centres).
-/// Range: any poses; a distance beyond 2^17 m saturates.
+/// Precision: k_distance_error times the pair's extent (the core diameters plus the distance of the centres).
+/// Range: any poses. Overflow: a distance of 2^17 m or more is clamped to the range of Real.
 /// Errors: bad_argument for two half-spaces; not_normalised; out_of_range for NaN, and with a half-space if the two
 /// positions are 2^16 m or more apart in a component.
 Status closest_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Closest& result,
                       DistanceCache* cache = nullptr);
 
-/// Sets `result` to whether the shapes overlap or touch. For polytopes the test is exact, except for the rounding of
-/// their poses, which causes an error of k_distance_error. If the iteration cap is reached, or if the rounding of the
-/// balls leaves the answer undecided, `result` is true. Errors: as closest_points().
+/// Sets `result` to whether the shapes overlap or touch. For polytopes the test is exact, except for an error of
+/// k_distance_error by the rounding of their poses. If GJK reaches its iteration cap, or if the rounding of the balls'
+/// radii leaves the answer undecided, `result` is true. Errors: as closest_points().
 Status overlap(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, bool& result,
                DistanceCache* cache = nullptr);
 
@@ -89,17 +89,17 @@ Status farther_than(const Convex& a, const Pose& pose_a, const Convex& b, const 
 /// The result of a cast.
 struct CastHit {
   bool hit = false;        ///< the cast hits the shape within its displacement
-  bool undecided = false;  ///< the iteration cap was reached: no hit before `time`; a hit after it is possible
+  bool undecided = false;  ///< an iteration cap was reached: no hit before `time`; a later hit is possible
   Fraction time = 0.0;     ///< fraction of the displacement before the hit, never late; 1 if there is no hit
   Vec3<Real> point = {};   ///< the hit point on the shape, m, from the shape's position, world axes
   Vec3<Unit> normal = {};  ///< of the shape at `point`, outward, world axes; zero if the cast starts in the core
 };
 
 /// Finds where the segment from `origin` (m, from the shape's position, world axes) to `origin` + `displacement` (m)
-/// enters the shape. Precision: the hit is at most the tolerance of time_of_impact() in front of the surface. Source:
-/// van den Bergen, "Ray Casting against General Convex Objects", 2004, with separating axes that are certified. Errors:
-/// not_normalised; out_of_range, also for a component of `displacement` of 2^15 m or more. An origin with a component
-/// of 2^16 m or more is out of range if the segment might hit the shape, and always if the shape is a half-space.
+/// enters the shape. Precision: the hit point lies at most the tolerance of time_of_impact() in front of the surface.
+/// Source: van den Bergen, "Ray Casting against General Convex Objects", 2004, with separating axes that are certified.
+/// Errors: not_normalised; out_of_range, also for a component of `displacement` of 2^15 m or more. An origin with a
+/// component of 2^16 m or more is out of range if the shape is a half-space, or if the segment might hit the shape.
 Status cast_ray(const Convex& convex, const Pose& pose, const Vec3<Real>& origin, const Vec3<Real>& displacement,
                 CastHit& result);
 

@@ -32,7 +32,7 @@ struct DebugDraw {
 /// The objects that draw() draws. Combine with |.
 enum class DrawFlags : uint32_t {
   none = 0,    ///< nothing
-  bodies = 1,  ///< calls `solid` for each body; if `solid` is null: the triangle edges of terrains, by `line`
+  bodies = 1,  ///< each body, by `solid`; if `solid` is null, only the edges of the terrains' triangles, by `line`
   bounds = 2,  ///< the twelve edges of each body's axis-aligned bounds, except for half-spaces
   /// Each contact point, and a line along its normal, as long as a quarter of the pair's smaller extent (WorldDef).
   contacts = 4,
@@ -48,7 +48,7 @@ constexpr bool contains(DrawFlags all, DrawFlags some) {
   return (static_cast<uint32_t>(some) & ~static_cast<uint32_t>(all)) == 0;
 }
 
-/// Draws the world. Order: bodies by slot, then contacts as in contact.h.
+/// Draws the world: first the bodies, in the order of their slots, then the contacts, in the order of get_contact().
 void draw(const World& world, const DebugDraw& to, DrawFlags flags = DrawFlags::all);
 
 }  // namespace DETENT_NAMESPACE

@@ -31,7 +31,7 @@ struct ContactEvent {
 
 /// The buffer to which a step writes its contact events, in the order of (a.slot, b.slot, type); several hits of a pair
 /// are in the order of their times. The memory is the caller's, and must stay valid as long as the world uses it. If
-/// there are more than `capacity` events, the last ones in this order are dropped, and counted in the report.
+/// there are more than `capacity` events, the step drops the last ones in this order, and the report counts them.
 struct ContactEventBuffer {
   ContactEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
   uint32_t capacity = 0;         ///< number of events
@@ -51,7 +51,8 @@ struct SensorEvent {
   BodyId body;                                    ///< the body that entered or left
 };
 
-/// As ContactEventBuffer, in the order of (sensor.slot, body.slot, type).
+/// The buffer to which a step writes its sensor events, in the order of (sensor.slot, body.slot, type). Its memory and
+/// its overflow are as those of ContactEventBuffer.
 struct SensorEventBuffer {
   SensorEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
   uint32_t capacity = 0;        ///< number of events
@@ -59,8 +60,8 @@ struct SensorEventBuffer {
 
 /// The type of a body event.
 enum class BodyEventType : uint32_t {
-  fell_asleep = 1,  ///< at the end of the step, with its whole island; sleep_body() causes no event
-  woke = 2,         ///< a contact or a joint woke it in the step, or a call woke it since the last step
+  fell_asleep = 1,  ///< the body fell asleep at the end of the step, with its island; sleep_body() causes no event
+  woke = 2,         ///< a contact or a joint woke the body in the step, or a call woke it since the last step
 };
 
 /// A dynamic body fell asleep or woke.
@@ -69,7 +70,8 @@ struct BodyEvent {
   BodyId body;                               ///< the body that fell asleep or woke
 };
 
-/// As ContactEventBuffer, in the order of the bodies' slots.
+/// The buffer to which a step writes its body events, in the order of the bodies' slots. Its memory and its overflow
+/// are as those of ContactEventBuffer.
 struct BodyEventBuffer {
   BodyEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
   uint32_t capacity = 0;      ///< number of events
@@ -77,21 +79,21 @@ struct BodyEventBuffer {
 
 /// Which pool of a step was full.
 enum class CapacityEventType : uint32_t {
-  pair = 1,     ///< two bodies with overlapping bounds were not collided; the limit is 2 x Capacity::contacts
+  pair = 1,     ///< bodies with overlapping bounds were not tested for contact; the limit is 2 x Capacity::contacts
   contact = 2,  ///< the contact of two bodies was dropped; the limit is Capacity::contacts
   sensed = 3,   ///< the sensor `a` does not report the body `b` within it; the limit is Capacity::sensed
 };
 
-/// A pair, contact or sensed body that a step dropped because a pool was full. The entry is missing in this step only.
-/// The report counts all dropped entries.
+/// A pair, contact or sensed body that a step dropped because a pool was full. It is missing in this step only: the
+/// next step searches for it again. The report counts all dropped pairs, contacts and sensed bodies.
 struct CapacityEvent {
   CapacityEventType type = CapacityEventType::contact;  ///< which pool was full
-  BodyId a;                                             ///< the body with the lower slot; or the sensor
+  BodyId a;                                             ///< the body with the lower slot; for `sensed` the sensor
   BodyId b;                                             ///< the other body
 };
 
-/// As ContactEventBuffer, in the order of (type, a.slot, b.slot), without duplicates. Events beyond `capacity` are
-/// dropped; the report does not count them.
+/// The buffer to which a step writes its capacity events, in the order of (type, a.slot, b.slot), without duplicates.
+/// Its memory is as that of ContactEventBuffer. Events beyond `capacity` are dropped; the report does not count them.
 struct CapacityEventBuffer {
   CapacityEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
   uint32_t capacity = 0;          ///< number of events

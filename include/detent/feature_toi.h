@@ -6,7 +6,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The kinds of the two features, and the order of their corners in the argument `corner`, `start` or `end`.
+/// The kinds of the two features, and the order of their corners in the arrays `corner`, `start` and `end` of the
+/// functions below.
 enum class FeatureKind : uint32_t {
   vertex_face = 1,  ///< A's vertex, corner 0, and B's triangle, corners 1 to 3
   edge_edge = 2,    ///< A's edge, corners 0 and 1, and B's edge, corners 2 and 3
@@ -15,8 +16,8 @@ enum class FeatureKind : uint32_t {
 /// The time of impact of two moving features.
 struct FeatureToi {
   ToiOutcome outcome = ToiOutcome::undecided;  ///< whether the features meet
-  Fraction time = 0.0;                         ///< never late: before it the features do not meet; 1 if clear
-  uint32_t intervals = 0;                      ///< time intervals searched; at most k_feature_intervals_max
+  Fraction time = 0.0;                         ///< fraction of the step; before it the features do not meet; 1 if clear
+  uint32_t intervals = 0;                      ///< number of intervals searched, at most k_feature_intervals_max
 };
 
 /// The largest gap at the time of a hit, as a fraction of the features' size, which is their longest edge. The
@@ -37,17 +38,17 @@ Status feature_toi_linear(FeatureKind kind, const Vec3<Real> (&start)[4], const 
 /// Touching counts as meeting. The features may be degenerate. The outcome may be `undecided` if a body makes many
 /// revolutions in the step.
 /// Corners: m, in the axes of their body and relative to its position; each component within 2^14.
-/// Tolerance: the sum of three lengths: k_feature_tolerance times the size; 2^-23 times the sum of the largest distance
-/// of A's corners from A's position and that of B's corners from B's position; 2^-41 m. Errors: bad_argument for
-/// another kind; not_normalised; out_of_range, also if a component of the displacements, or of the initial distance of
-/// the positions, is more than 2^14 m, or a rotation is more than 2^16 rad.
+/// Tolerance: the sum of three lengths: k_feature_tolerance times the size; 2^-23 times (the largest distance of A's
+/// corners from A's position + the largest distance of B's corners from B's position); 2^-41 m. Errors: bad_argument
+/// for another kind; not_normalised; out_of_range, also if a component of the displacements, or of the initial offset
+/// between the positions, is more than 2^14 m, or a rotation is more than 2^16 rad.
 Status feature_toi(FeatureKind kind, const Vec3<Real> (&corner)[4], const Motion& motion_a, const Motion& motion_b,
                    FeatureToi& result);
 
 /// The poses of a body at the beginning and at the end of a step.
 struct PosePair {
   Pose start = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};  ///< at the beginning of the step
-  Pose end = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};    ///< at its end
+  Pose end = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};    ///< at the end of the step
 };
 
 /// Finds when two features first meet if the poses of their bodies are given at the beginning and at the end of a step.
@@ -58,8 +59,8 @@ struct PosePair {
 /// Touching counts as meeting. The features may be degenerate.
 /// Corners: m, in the axes of their body and relative to its position; each component within 2^10. B's position
 /// relative to A's: each component within 2^10 m.
-/// Tolerance: the sum of three lengths: k_feature_tolerance times the size; 2^-21 times the sum of the largest distance
-/// of B's corners from B's position and the distance of the positions of A and B; 2^-39 m. Errors: bad_argument for
+/// Tolerance: the sum of three lengths: k_feature_tolerance times the size; 2^-21 times (the largest distance of B's
+/// corners from B's position + the distance between A's and B's positions); 2^-39 m. Errors: bad_argument for
 /// another kind; not_normalised; out_of_range, also if B rotates in A's frame by more than 2.65 rad (the tangent of
 /// half the angle is at most 4).
 Status feature_toi_screw(FeatureKind kind, const Vec3<Real> (&corner)[4], const PosePair& a, const PosePair& b,

@@ -12,7 +12,7 @@ enum class JointType : uint32_t {
   /// The anchors coincide; rotation is free. `axis` is a spring that rotates B's frame to A's, with the same settings
   /// about each axis of A's frame. Only its `frequency`, `damping_ratio` and `force_max` are used.
   ball = 1,
-  hinge = 2,       ///< the anchors and the x axes coincide; `axis`: the angle of B's frame relative to A's about x
+  hinge = 2,       ///< the anchors and the x axes coincide; `axis`: the angle of B's frame relative to A's, about x
   slider = 3,      ///< the frames are parallel, B's anchor lies on A's x axis; `axis`: its position on this axis
   distance = 4,    ///< all motions are free; `axis`: the distance of the anchors. Rod: lower = upper; rope: lower = 0
   fixed = 5,       ///< the frames coincide
@@ -21,7 +21,7 @@ enum class JointType : uint32_t {
   /// `axis`: the position along the suspension; `second`: the wheel's angle about the axle.
   wheel = 7,
   parallel = 8,  ///< the x axes are parallel, all else is free; can keep a body upright; `axis`: as for a hinge
-  filter = 9,    ///< all motions are free; A and B do not collide
+  filter = 9,    ///< all motions are free; the joint only keeps A and B from colliding (if JointDef::collide is false)
 };
 inline constexpr JointType k_joint_type_last = JointType::filter;  ///< the largest value of a joint type
 
@@ -33,7 +33,7 @@ struct JointAxis {
   Real upper = 0.0;      ///< rad or m, x <= upper; not below `lower`; equal to `lower`: x is fixed there
   /// Hz, [0, 1024]: frequency at which the two bodies alone would oscillate on the spring; 0: no spring.
   Real frequency = 0.0;
-  Real damping_ratio = 1.0;  ///< of the spring, [0, 64]; 1 is critical
+  Real damping_ratio = 1.0;  ///< damping ratio of the spring, [0, 64]; 1 is critical damping
   Real target = 0.0;         ///< target of the spring, rad or m
   Real speed = 0.0;          ///< speed of the motor, or of the spring's target, rad/s or m/s; within +-1024
   /// N or N m, >= 0. If `frequency` is above 0: the largest force of the spring; 0 means no limit. If `frequency` is 0:
@@ -49,7 +49,7 @@ struct JointDef {
   Vec3<Real> anchor_a = {0.0, 0.0, 0.0};  ///< from A's centre of mass, m, A's axes; each component within +-4096
   Vec3<Real> anchor_b = {0.0, 0.0, 0.0};  ///< from B's centre of mass, m, B's axes; each component within +-4096
   Quat frame_a = {0.0, 0.0, 0.0, 1.0};    ///< joint frame's axes to A's; length 1 within 2^-10, normalised on entry
-  Quat frame_b = {0.0, 0.0, 0.0, 1.0};    ///< joint frame's axes to B's; as frame_a
+  Quat frame_b = {0.0, 0.0, 0.0, 1.0};    ///< joint frame's axes to B's; length as that of frame_a
   JointAxis axis = {};                    ///< the first free motion (JointType)
   JointAxis second = {};                  ///< the second free motion (JointType)
   /// N, >= 0: largest friction force along the free translation of a slider, a wheel's suspension or a distance joint.
@@ -96,11 +96,12 @@ struct JointEvent {
   JointReaction reaction = {};  ///< in the step in which the joint broke
 };
 
-/// The caller's buffer for joint events, in the order of the joints' slots. The memory must stay valid as long as the
-/// world uses it. Events beyond `capacity` are dropped and counted in the report; the joints break nevertheless.
+/// The buffer to which a step writes its joint events, in the order of the joints' slots. The memory is the caller's,
+/// and must stay valid as long as the world uses it. Events beyond `capacity` are dropped, and counted in the report;
+/// their joints break nevertheless.
 struct JointEventBuffer {
-  JointEvent* data = nullptr;  ///< filled from its front
-  uint32_t capacity = 0;       ///< events that `data` has room for
+  JointEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
+  uint32_t capacity = 0;       ///< number of events
 };
 
 struct World;

@@ -4,8 +4,8 @@
 #include <detent/status.h>
 
 /// @file
-/// Numbers: fixed point, the number roles, vectors, rotations and poses; their conversions from and to the host;
-/// transforms between the axes of a body and of the world; poses for rendering. No world is needed.
+/// Numbers: fixed point, the number roles, vectors, rotations and poses; their conversions from and to the doubles of
+/// the host; transforms between the axes of a body and of the world; poses for rendering. No world is needed.
 ///
 /// A *role* (Coord, Real, Unit, Scaled) is a kind of quantity; each configuration represents it by a type of its own.
 /// All code above lib/math uses the roles, and is compiled once per configuration. Ranges, resolutions and their
@@ -15,14 +15,15 @@
 /// They read and write the bits of the double, so the caller's rounding mode, flush-to-zero and -ffast-math have no
 /// effect.
 ///
-/// Range of the transforms: lengths below 2^16 m, angles to 2^16 rad; rotations of length 1 within 2^-10.
+/// Range of the arguments of the transforms: lengths below 2^16 m; angles of at most 2^16 rad; quaternions whose length
+/// is 1 within 2^-10.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// The result of fixed_from_double_bits(): a double converted to fixed point.
 struct FromDouble {
-  int64_t raw;    ///< value 2^frac, rounded to nearest, ties away from zero
-  bool in_range;  ///< false for NaN, infinity, and a rounded |value| 2^frac of 2^(int_bits-1) or more; raw is then 0
+  int64_t raw;    ///< the value times 2^frac, rounded to nearest, ties away from zero; 0 if not in_range
+  bool in_range;  ///< false for NaN and infinity, and if the rounded |value| 2^frac is 2^(int_bits-1) or more
 };
 /// Converts an IEEE double, given by its bits, to a fixed-point number with `frac` fraction bits. The function uses
 /// only integer arithmetic, so the caller's rounding mode and flush-to-zero have no effect. Range: 0 <= frac <= 62.
@@ -31,7 +32,7 @@ constexpr FromDouble fixed_from_double_bits(uint64_t bits, int frac, int int_bit
   const bool negative = (bits >> 63) != 0;
   const int biased = static_cast<int>((bits >> 52) & 0x7ff);
   if (biased == 0x7ff) return {0, false};
-  if (biased == 0) return {0, true};  // zero and subnormals: below half the resolution of every format
+  if (biased == 0) return {0, true};  // zero and subnormals, which are below half the resolution of every format
   const uint64_t mantissa = (bits & 0xfffffffffffffu) | 0x10000000000000u;
   const int shift = biased - 1075 + frac;  // value 2^frac = mantissa 2^shift
   uint64_t magnitude = 0;
@@ -61,7 +62,7 @@ struct alignas(sizeof(Int)) Fixed {  // alignas: some targets align 8-byte membe
 
   /// Not initialised; `{}` is zero.
   Fixed() = default;
-  /// From a literal, rounded to nearest, ties away from zero. A literal out of range does not compile.
+  /// Converts a literal. Rounding: to nearest, ties away from zero. A literal out of range does not compile.
   // NOLINTNEXTLINE(google-explicit-constructor): a literal is meant to convert
   consteval Fixed(double literal) : raw(literal_raw(literal)) {}
   /// The number raw_value 2^-Frac.
@@ -71,7 +72,7 @@ struct alignas(sizeof(Int)) Fixed {  // alignas: some targets align 8-byte membe
     return result;
   }
 
-  /// Compares the values; exact.
+  /// Comparisons of the values, exact.
   /// @{
   friend constexpr bool operator==(Fixed a, Fixed b) { return a.raw == b.raw; }
   friend constexpr bool operator<(Fixed a, Fixed b) { return a.raw < b.raw; }
@@ -99,17 +100,17 @@ struct alignas(sizeof(Int)) Fixed {  // alignas: some targets align 8-byte membe
 };
 
 #if defined(DETENT_FX64)
-using Coord = Fixed<int64_t, 32>;  ///< a coordinate of a world position, m: +-2^31 m, resolution 2.3e-10 m
+using Coord = Fixed<int64_t, 32>;  ///< a coordinate of a world position, m: range +-2^31 m, resolution 2.3e-10 m
 #elif defined(DETENT_FX32)
-using Coord = Fixed<int32_t, 16>;  ///< m: +-32 km, resolution 1.5e-5 m; the state also stores the remainder
+using Coord = Fixed<int32_t, 16>;  ///< m: range +-32 km, resolution 1.5e-5 m; the state also stores a finer remainder
 #elif defined(DETENT_F32)
-using Coord = Fixed<int64_t, 32>;  ///< m: as in fx64
+using Coord = Fixed<int64_t, 32>;  ///< m; the same type as in fx64
 #else
 using Coord = double;  ///< m
 #endif
 
 #if DETENT_FIXED
-using Real = Fixed<int64_t, 46>;  ///< lengths, times, speeds, m, s, m/s: +-131 072, resolution 1.4e-14
+using Real = Fixed<int64_t, 46>;  ///< lengths, m, times, s, and speeds, m/s: range +-131 072, resolution 1.4e-14
 using Unit = Fixed<int32_t, 30>;  ///< dimensionless, in (-2, 2): rotations, normals, lengths relative to a power of two
 #elif defined(DETENT_F32)
 using Real = float;
@@ -121,9 +122,9 @@ using Unit = double;
 
 /// A fraction of a step, in [0, 1], with a resolution of 2^-62.
 using Fraction = Fixed<int64_t, 62>;
-/// The fraction as a Real. Rounding: down.
+/// Converts a fraction to a Real. Rounding: down.
 Real real_from_fraction(Fraction fraction);
-/// The nearest double, ties to even.
+/// Converts a fraction to the nearest double, ties to even.
 double fraction_to_host(Fraction fraction);
 
 #if DETENT_FIXED
@@ -137,8 +138,8 @@ struct Scaled {
 
   /// Not initialised; `{}` is zero.
   Scaled() = default;
-  /// A literal, rounded to nearest, ties away from zero. A literal that is neither 0 nor has a magnitude in
-  /// [2^-200, 2^200] does not compile.
+  /// Converts a literal: 0, or of a magnitude in [2^-200, 2^200]. Other literals do not compile. Rounding: to nearest,
+  /// ties away from zero.
   // NOLINTNEXTLINE(google-explicit-constructor): a literal is meant to convert
   consteval Scaled(double literal) : Scaled(from_double_bits(__builtin_bit_cast(uint64_t, literal))) {
     if (mantissa == 0 && literal != 0) __builtin_trap();  // at compile time: NaN, infinite or out of range
@@ -150,7 +151,8 @@ struct Scaled {
     result.exponent = exponent;
     return result;
   }
-  /// Rounded to nearest, ties away from zero. NaN, infinity and |value| outside [2^-200, 2^200] give 0.
+  /// Converts an IEEE double, given by its bits. Rounding: to nearest, ties away from zero. The result is 0 for NaN,
+  /// infinity and |value| outside [2^-200, 2^200].
   static constexpr Scaled from_double_bits(uint64_t bits) {
     const int biased = static_cast<int>((bits >> 52) & 0x7ff);
     if (biased < 1023 - 200 || biased > 1023 + 200) return from_parts(0, 0);
@@ -189,9 +191,9 @@ using Position = Vec3<Coord>;
 
 /// A rotation as a unit quaternion, w + xi + yj + zk, from local to world: v_world = q v_local q*.
 struct Quat {
-  Unit x;  ///< the part of i
-  Unit y;  ///< the part of j
-  Unit z;  ///< the part of k
+  Unit x;  ///< the coefficient of i
+  Unit y;  ///< the coefficient of j
+  Unit z;  ///< the coefficient of k
   Unit w;  ///< the real part
   /// Equal in each component. q and -q are the same rotation, but they are not equal.
   friend constexpr bool operator==(const Quat& a, const Quat& b) {
@@ -210,9 +212,10 @@ struct Pose {
   Quat rotation;      ///< local to world, of length 1
 };
 
-/// `result` = value, rounded to nearest (ties away from zero; f32: to even). -0 becomes +0, as does a number too small
-/// for Real, Unit or Coord. Range: |value| < 2^17 for Real, < 2 for Unit, < 2^31 (fx32: 2^15) for Coord. For Scaled: 0,
-/// or 2^-100 <= |value| < 2^100. Errors: out_of_range, also for NaN and infinity; `result` is then unchanged.
+/// Sets `result` to `value`, rounded to nearest, ties away from zero (f32: to even). -0 becomes +0, and so does a
+/// number that is too small for Real, Unit or Coord. Range: |value| < 2^17 for Real, < 2 for Unit, < 2^31 (fx32: 2^15)
+/// for Coord. For Scaled: 0, or 2^-100 <= |value| < 2^100. Errors: out_of_range, also for NaN and infinity; `result` is
+/// then unchanged.
 /// @{
 Status real_from_host(double value, Real& result);
 Status unit_from_host(double value, Unit& result);
@@ -220,7 +223,7 @@ Status coord_from_host(double value, Coord& result);
 Status scaled_from_host(double value, Scaled& result);
 /// @}
 
-/// The nearest double, ties to even.
+/// Converts a number to the nearest double, ties to even.
 /// @{
 double real_to_host(Real value);
 double unit_to_host(Unit value);
@@ -248,13 +251,14 @@ struct CameraRelative {
   float rotation[4];  ///< x, y, z, w; from local to world
 };
 
-/// The pose relative to a camera. Rounding: the exact difference of the positions is rounded to the nearest float, so
-/// the result is as precise at 10,000 km from the world's origin as at the origin.
+/// Returns `pose` relative to a camera at the position `camera`. Rounding: the exact difference of the positions is
+/// rounded to the nearest float, so the result is as precise at 10,000 km from the world's origin as at the origin.
 CameraRelative relative_to_camera(const Pose& pose, const Position& camera);
 
 /// Interpolates between the poses of two ticks. Range: alpha in [0, 1]; coordinates less than 2^31 m apart.
-/// The position is interpolated linearly; the rotation by a normalised weighted mean along the shorter arc. Alpha 0
-/// gives `from`, and 1 gives `to` (its rotation is renormalised, and may be -q).
+/// The position is interpolated linearly; the rotation by a normalised weighted mean along the shorter arc. Alpha = 0
+/// gives `from`, and alpha = 1 gives `to`; the rotation is renormalised, and may be the negative quaternion of that in
+/// `to`.
 Pose interpolate(const Pose& from, const Pose& to, Unit alpha);
 
 }  // namespace DETENT_NAMESPACE

@@ -8,35 +8,36 @@
 /// sensors. The result is that of the narrow phase (toi.h, distance.h), applied to all bodies one by one. It depends on
 /// the world's state alone, and is the same on every target.
 ///
-/// Hits are sorted by their fraction (casts) or distance. At equal values decided hits come first, then lower slots. If
-/// the narrow phase reaches an iteration cap, or cannot test a body, the body is still reported, as an `undecided` hit.
-/// Its fraction or distance is then a lower bound: nearer than this, the body is certainly not hit.
+/// Hits of casts are sorted by their fraction, hits of query_closest() by their distance. Hits with equal values are
+/// sorted by slot, undecided ones after all others. If the narrow phase reaches an iteration cap, or cannot test a
+/// body, the body is still reported, as an `undecided` hit. Its fraction or distance is then a lower bound: nearer than
+/// this, the body is certainly not hit.
 ///
-/// A terrain (terrain()) gives one hit: its first or nearest triangle; of several at equal values, the triangle with
-/// the lowest index. A one-sided terrain is not hit from behind.
+/// A terrain (terrain()) gives one hit: its first or nearest triangle. If several triangles are equally near, it is the
+/// one with the lowest index. A one-sided terrain is not hit from behind.
 ///
 /// Errors of all queries: out_of_range, not_normalised; for shapes also those of create_body(). After an error, the
 /// outputs are unchanged.
 ///
-/// visit_triangles() visits the triangles of a terrain, for drawing. A program that does not call it does not link it.
+/// visit_triangles() visits the triangles of a terrain, for drawing. Only programs that call it link its code.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// Selects the bodies that a query tests: the category of the body shares a bit with `mask`, and the mask of the body
 /// shares a bit with `category`. The groups and filter rules of the bodies have no effect.
 struct QueryFilter {
-  uint32_t category = 1;  ///< bits: the categories of the query
-  uint32_t mask = ~0u;    ///< bits: the categories of bodies that the query tests
+  uint32_t category = 1;  ///< bit set: the categories of the query
+  uint32_t mask = ~0u;    ///< bit set: the categories of bodies that the query tests
   BodyId ignore = {};     ///< a body that the query skips; null: none
 };
 
 /// A body that a query found.
 struct QueryHit {
   BodyId body = {};  ///< the body
-  /// True: fraction and distance are lower bounds. The body may not be hit at all; point and normal are 0.
+  /// If true, the body may or may not be hit: `fraction` and `distance` are lower bounds, `point` and `normal` are 0.
   bool undecided = false;
-  Fraction fraction = 0.0;  ///< casts: the fraction of the displacement until the hit, never late
-  Real distance = 0.0;      ///< query_closest(): the distance of the surfaces, m; 0 where they overlap
+  Fraction fraction = 0.0;  ///< casts: the fraction of the displacement until the hit, or less, never more
+  Real distance = 0.0;      ///< query_closest(): the distance of the surfaces, m; 0 if the shapes overlap
   Position point = {};      ///< on the body's surface, m, world; 0 from query_bounds()
   /// The body's outward normal at `point`, world; 0 if the hit is undecided, if the cores (the shapes without their
   /// rounding, distance.h) overlap, and from query_bounds().
@@ -50,15 +51,15 @@ struct QueryHit {
 /// The caller's buffer for hits. If there are more than `capacity` hits, the last ones in sort order are dropped, and
 /// counted in the report.
 struct QueryHits {
-  QueryHit* data = nullptr;  ///< the first hit
-  uint32_t capacity = 0;     ///< hits that `data` has room for
+  QueryHit* data = nullptr;  ///< room for `capacity` hits
+  uint32_t capacity = 0;     ///< number of hits
 };
 
 /// The counts of a query.
 struct QueryReport {
-  uint32_t hits = 0;       ///< hits written
-  uint32_t dropped = 0;    ///< hits beyond QueryHits::capacity
-  uint32_t undecided = 0;  ///< undecided hits, written or dropped
+  uint32_t hits = 0;       ///< number of hits written
+  uint32_t dropped = 0;    ///< number of hits beyond QueryHits::capacity
+  uint32_t undecided = 0;  ///< number of undecided hits, written or dropped
   uint64_t digest = 0;     ///< a hash of all hits, written or dropped
 };
 
@@ -73,7 +74,7 @@ struct RayQuery {
 /// A shape that moves at constant velocity and rotates at constant angular velocity. `shape`: any shape of a body
 /// except half-space, terrain and compound; or a point, which is a sphere of radius 0.
 struct CastQuery {
-  Shape shape = {};                              ///< as of a body, or a point
+  Shape shape = {};                              ///< a shape of a body, or a point
   Position position = {0.0, 0.0, 0.0};           ///< at the start, m, world
   Quat rotation = {0.0, 0.0, 0.0, 1.0};          ///< at the start, local to world
   Vec3<Real> displacement = {0.0, 0.0, 0.0};     ///< m, world; each component within 2^14
@@ -82,9 +83,9 @@ struct CastQuery {
   bool all = false;                              ///< true: find every body that the shape hits; false: only the first
 };
 
-/// A shape at rest; shapes as in CastQuery.
+/// A shape at rest: one that is permitted in a CastQuery.
 struct OverlapQuery {
-  Shape shape = {};                      ///< as of a body, or a point
+  Shape shape = {};                      ///< a shape of a body, or a point
   Position position = {0.0, 0.0, 0.0};   ///< m, world
   Quat rotation = {0.0, 0.0, 0.0, 1.0};  ///< local to world
   QueryFilter filter = {};               ///< the bodies that it tests
@@ -95,14 +96,14 @@ struct OverlapQuery {
 /// half-space overlaps every box.
 struct BoundsQuery {
   Position lower = {0.0, 0.0, 0.0};  ///< m, world
-  Position upper = {0.0, 0.0, 0.0};  ///< m, world; not below `lower`
+  Position upper = {0.0, 0.0, 0.0};  ///< m, world; no component is less than that of `lower`
   QueryFilter filter = {};           ///< the bodies that it tests
   bool all = false;                  ///< true: find every body that overlaps; false: only the first
 };
 
-/// A shape at rest and a search distance around it; shapes as in CastQuery.
+/// A shape at rest, one that is permitted in a CastQuery, and a search distance around it.
 struct ClosestQuery {
-  Shape shape = {};                      ///< as of a body, or a point
+  Shape shape = {};                      ///< a shape of a body, or a point
   Position position = {0.0, 0.0, 0.0};   ///< m, world
   Quat rotation = {0.0, 0.0, 0.0, 1.0};  ///< local to world
   Real distance_max = 16.0;              ///< search distance between the surfaces, m, [0, 2^14]
@@ -128,16 +129,17 @@ Status query_closest(const World& world, const ClosestQuery& query, QueryHits hi
 
 /// The answer to one query of a batch.
 struct QueryAnswer {
-  Status status = Status::ok;  ///< what the single call returns; after an error, report and hits are unchanged
-  QueryReport report = {};     ///< what the single call reports
+  /// The status that a single call of the query returns. After an error, the report and the hits are unchanged.
+  Status status = Status::ok;
+  QueryReport report = {};  ///< the report of a single call of the query
 };
 
-/// Answers `count` queries of one kind: status, report and hits of each query are those of the single call, bit for
-/// bit. The queries run on the threads of WorldHooks::tasks, or on the calling thread if there are none or if `count`
-/// is small (Tasks::least).
+/// Answers `count` queries of one kind. The status, the report and the hits of each query are bit for bit those of a
+/// single call such as query_ray(). The queries run on the threads of WorldHooks::tasks, or on the calling thread if
+/// there are none or if `count` is small (Tasks::least).
 ///
 /// `hits`: room for `hits_each` hits of each query; those of query i begin at hits[i * hits_each]. If a query has more
-/// hits, the last ones in sort order are dropped, and counted in its report. May be null if `hits_each` is 0.
+/// hits, the last ones in sort order are dropped, and counted in its report. `hits` may be null if `hits_each` is 0.
 /// `answers`: room for one answer of each query. The three arrays must not overlap.
 ///
 /// An invalid query does not affect the others. Returns the status of the first query that is not ok, if there is one.
@@ -156,9 +158,9 @@ Status query_batch(const World& world, const ClosestQuery* queries, uint32_t cou
 
 /// A triangle of a body, at the body's current pose.
 struct BodyTriangle {
-  uint32_t index = 0;       ///< as QueryHit::triangle
-  uint32_t material = 0;    ///< as cooked
-  Position corner[3] = {};  ///< counter-clockwise from the front, m, world
+  uint32_t index = 0;       ///< index of the triangle, as in QueryHit::triangle
+  uint32_t material = 0;    ///< material of the triangle, as cooked
+  Position corner[3] = {};  ///< corners, counter-clockwise as seen from the front, m, world
 };
 
 /// Calls visit(user, triangle) for each triangle of the body, always in the same order. Rounding: to the resolution of

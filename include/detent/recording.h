@@ -6,7 +6,7 @@
 /// @file
 /// Recording and replay. A recording is a stream of small chunks, each with a checksum. They hold a seed snapshot,
 /// every call that changes the world, and digests. Format: docs/recording.md. Recorder and Player allocate nothing;
-/// each uses only the caller's buffer. Only Player::go_to seeks.
+/// each uses only the caller's buffer. Only Player::go_to calls Source::seek; all other calls read and write in order.
 ///
 /// Threads: only one thread at a time may use a Recorder or Player, or the world on which it works.
 namespace detent {
@@ -17,24 +17,24 @@ inline constexpr uint32_t k_recording_format_version = 6;
 /// Size of the working buffer of a Recorder or Player, bytes: one chunk. No alignment is needed.
 inline constexpr uint32_t k_recording_buffer_bytes = 544;
 
-/// What a trace contains. Stored: a value is never reused.
+/// What a trace contains. Stored in recordings: a value is never reused.
 enum class TraceLevel : uint32_t {
-  digests = 0,  ///< no trace: only the digests of RecordingDef::digest_interval
+  digests = 0,  ///< no trace; the recording has only the digests of RecordingDef::digest_interval
   stages = 1,   ///< in the traced ticks also a digest of each body, contact and joint after each stage of the step
-  full = 2,     ///< in the traced ticks also the complete bodies, contacts and joints after each stage
+  full = 2,     ///< in the traced ticks also the complete bodies, contacts and joints after each stage of the step
 };
 
 /// The ticks that a recording traces. The number of a tick is its StepReport::tick.
 struct TraceDef {
-  TraceLevel level = TraceLevel::full;  ///< trace level of these ticks
-  uint64_t from = 0;                    ///< the first tick
-  uint64_t to = UINT64_MAX;             ///< the last tick
+  TraceLevel level = TraceLevel::full;  ///< trace level of the traced ticks
+  uint64_t from = 0;                    ///< the first traced tick
+  uint64_t to = UINT64_MAX;             ///< the last traced tick
 };
 
 /// The output of a recording. `write` must take all `count` bytes, or return a status other than ok. If `write` is
-/// null, nothing is recorded; the calls are applied to the world.
+/// null, the recorder only applies its calls to the world, and records nothing.
 struct Sink {
-  /// Takes `count` bytes.
+  /// Takes the `count` bytes at `bytes`.
   Status (*write)(void* context, const uint8_t* bytes, uint32_t count) = nullptr;
   void* context = nullptr;  ///< passed to `write`
 };
@@ -53,8 +53,10 @@ struct Source {
 
 /// What a recording contains.
 struct RecordingDef {
-  uint32_t digest_interval = 1;    ///< a digest after every tick that is a multiple of this; 0: only at the end
-  uint32_t keyframe_interval = 0;  ///< the whole state after every tick that is a multiple of this; 0: never
+  /// The recording gets a digest after every tick whose number is a multiple of this; 0: only at the end.
+  uint32_t digest_interval = 1;
+  /// The recording gets the whole state (a keyframe) after every tick whose number is a multiple of this; 0: never.
+  uint32_t keyframe_interval = 0;
 };
 
 /// The header of a recording.
@@ -62,11 +64,11 @@ struct RecordingInfo {
   uint32_t format_version = 0;                   ///< k_recording_format_version of the recorder
   uint32_t simulation_version = 0;               ///< k_simulation_version of the recorder
   Config config = k_config;                      ///< of the recorded world
-  Capacity capacity = {};                        ///< of the recorded world; a replay needs a world with the same
+  Capacity capacity = {};                        ///< of the recorded world; a replay needs a world of this capacity
   TraceLevel trace_level = TraceLevel::digests;  ///< TraceDef::level; `digests` without a trace
   uint32_t digest_interval = 0;                  ///< RecordingDef::digest_interval
   uint64_t tick = 0;                             ///< ticks that the world had completed when the recording began
-  uint32_t snapshot_bytes = 0;                   ///< bytes of the seed, and of each keyframe
+  uint32_t snapshot_bytes = 0;                   ///< size of the seed snapshot, and of that of each keyframe, bytes
   uint32_t keyframe_interval = 0;                ///< RecordingDef::keyframe_interval
 };
 
@@ -215,10 +217,10 @@ class Recorder {
 /// The result of one tick of a replay.
 struct TickResult {
   bool finished = false;   ///< the recording has ended: no tick was simulated; `digest` is that of the final state
-  bool compared = false;   ///< the recording has a digest of this tick; with a world, it equals the replayed one
+  bool compared = false;   ///< the recording has a digest of this tick; a replayed world has the same digest
   uint64_t tick = 0;       ///< ticks completed since the world was created
   uint64_t digest = 0;     ///< the recorded digest, if `compared`
-  uint32_t calls = 0;      ///< calls made before the tick
+  uint32_t calls = 0;      ///< number of recorded calls and queries before the tick
   StepReport report = {};  ///< the report of the step; empty without a world
 };
 
@@ -229,8 +231,8 @@ struct ReplayError {
   uint64_t tick = 0;             ///< ticks completed when the replay stopped
   uint64_t offset = 0;           ///< bytes from the recording's start to the wrong header field, chunk or record
   const char* field = "";        ///< name of the wrong item; never null
-  uint64_t digest_recorded = 0;  ///< digest_differs at a digest: the digest in the recording
-  uint64_t digest_replayed = 0;  ///< digest_differs at a digest: this machine's digest
+  uint64_t digest_recorded = 0;  ///< if a digest (of a state or of hits) differs: the digest in the recording
+  uint64_t digest_replayed = 0;  ///< if a digest differs: the digest that this machine computed
 };
 
 /// @cond
@@ -264,9 +266,9 @@ class Player {
   /// The header, after `open` has read it.
   const RecordingInfo& info() const { return info_; }
 
-  /// Loads the seed into a world that was created with `info().capacity`. On failure the world is left empty.
-  /// Errors: bad_argument (not opened, or started already), capacity_differs, and those of `load`; truncated,
-  /// sink_failed.
+  /// Loads the seed into a world that was created with `info().capacity`.
+  /// Errors: bad_argument (not opened, or started already) and capacity_differs, which leave the world unchanged; those
+  /// of `load`, truncated and sink_failed, which leave the world empty.
   Status start(World& world);
   /// Starts at the current state of the world, which may be a snapshot that any machine saved during this recording.
   /// Skips the recording up to the world's tick. Errors: as start, and out_of_range (a tick before the seed or after
@@ -278,17 +280,17 @@ class Player {
   /// checksums are right, so the states must differ. Errors: bad_argument (not started, or finished), truncated,
   /// corrupt, digest_differs, sink_failed; `result` is then untouched.
   Status next_tick(World& world, TickResult& result) { return advance(&world, result); }
-  /// As next_tick, but without a world: reads and checks the bytes of one tick, and makes no calls. The first call
-  /// after `open` begins at the seed.
+  /// As next_tick, but without a world: reads and checks the bytes of one tick, and makes no calls. If called directly
+  /// after `open`, it first skips the seed.
   Status skip_tick(TickResult& result) { return advance(nullptr, result); }
   /// Sets the world to its state after `tick` completed ticks, before the calls of the next tick. The tick may be after
-  /// or before the current one. `open` must have been called; `start` is not necessary. The player begins at the latest
-  /// of three states that is not after the tick: the last keyframe, the seed, the current state. From there it plays as
-  /// next_tick does. If the source can seek, a truncated recording can be played up to its last intact chunk. Errors:
-  /// out_of_range (a tick outside the recording, or an earlier tick if the source cannot seek), and those of start and
-  /// next_tick. After out_of_range nothing has changed, with one exception: if the source cannot seek and the tick is
-  /// beyond the end, the replay is at the end. After other errors the world is empty, or at the tick where the replay
-  /// stopped.
+  /// or before the current one. `open` must have been called; `start` is not necessary. The player begins at the seed,
+  /// at a keyframe or at the current state, whichever is the latest that is not after `tick`; it uses keyframes only if
+  /// the source can seek. From there it plays as next_tick does. If the source can seek, a truncated recording can be
+  /// played up to its last intact chunk. Errors: out_of_range (a tick outside the recording, or an earlier tick if the
+  /// source cannot seek), and those of start and next_tick. After out_of_range nothing has changed, with one exception:
+  /// if the source cannot seek and the tick is beyond the end, the replay is at the end. After bad_argument or
+  /// capacity_differs the world is unchanged. After other errors it is empty, or at the tick where the replay stopped.
   Status go_to(World& world, uint64_t tick);
   /// The size of the intact part of the recording, bytes from its start. Valid after next_tick returned truncated, or
   /// corrupt because of a damaged chunk. The intact part, followed by the end that write_end() writes, is a recording
@@ -300,7 +302,7 @@ class Player {
   Status write_end(const World& world, Sink sink);
   /// Where and why the replay stopped; `status` is ok until it stops.
   const ReplayError& error() const { return error_; }
-  /// Bytes read so far, for a progress display.
+  /// The number of bytes read so far, for a progress display.
   uint64_t bytes_read() const { return offset_; }
 
  private:

@@ -10,25 +10,26 @@
 /// the machine repeats the ticks from the tick of this input on. The session stores inputs and states; the game sends
 /// the inputs between machines. See docs/rollback.md.
 ///
-/// Models: GGPO (Cannon 2019), for the inputs and for saving, loading and advancing a frame; ggrs, for the comparison
-/// of checksums, the sync test, and for accepting inputs and checksums while a session waits.
+/// Two libraries were the models: GGPO (Cannon 2019), for the inputs and for saving, loading and advancing a frame;
+/// ggrs, for the comparison of checksums, the sync test, and for accepting inputs and checksums while a session waits.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// Copies the state of `from` to `to`; their capacities may differ. Afterwards both worlds have the same digest. They
 /// step identically as long as no pool of either world is full. `to` keeps its event buffers, assets, filter rules and
-/// features. Errors, each before `to` is changed: pool_full (`to` has no room for the state in use), feature_missing,
-/// asset_missing, asset_mismatch, rule_missing.
+/// features. Errors: pool_full (`to` has no room for the state in use), feature_missing, asset_missing, asset_mismatch,
+/// rule_missing; after an error `to` is unchanged.
 Status copy_world(const World& from, World& to);
 
 /// The digest folded to 32 bits (high half xor low half). Players exchange it to check that their worlds agree.
 uint32_t checksum32(const World& world);
 
-/// Largest size of the difference of two snapshots of this capacity, bytes; 0 if the capacity is out of range.
+/// Largest size of a delta (save_delta()) between two snapshots of this capacity, bytes; 0 if the capacity is out of
+/// range.
 constexpr uint32_t delta_bytes_max(Capacity capacity);
-/// Writes the difference between `base`, an earlier snapshot of this world by save(), and the current state of the
-/// world. The delta has the same bytes on every target (SPEC.md, "Delta"). `bytes`: number of bytes written, at most
-/// `delta_capacity`.
+/// Writes to `delta` the difference between `base`, an earlier snapshot of this world by save(), and the current state
+/// of the world. The delta has the same bytes on every target (SPEC.md, "Delta"). Sets `bytes` to the number of bytes
+/// written, at most `delta_capacity`.
 /// Errors: those of restore(), for the base; buffer_too_small, after which the content of `delta` is unspecified.
 Status save_delta(const World& world, const uint8_t* base, uint32_t base_bytes, uint8_t* delta, uint32_t delta_capacity,
                   uint32_t& bytes);
@@ -38,31 +39,32 @@ Status save_delta(const World& world, const uint8_t* base, uint32_t base_bytes, 
 Status restore_delta(World& world, const uint8_t* base, uint32_t base_bytes, const uint8_t* delta,
                      uint32_t delta_bytes);
 /// Changes `base`, in place, to the snapshot of the state from which the delta was written. The delta may come from an
-/// untrusted source: every length and offset is checked before the base is changed; let load() check the resulting
-/// snapshot. Errors: truncated, not_detent, format_unknown, capacity_differs (a base of another size), bad_argument (a
-/// base of another tick), corrupt.
+/// untrusted source: the function checks every length and offset before it changes the base, and load() can check the
+/// resulting snapshot. Errors: truncated, not_detent, format_unknown, capacity_differs (the base has another size),
+/// bad_argument (the base is of another tick), corrupt.
 Status apply_delta(uint8_t* base, uint32_t base_bytes, const uint8_t* delta, uint32_t delta_bytes);
 
 /// Bytes of memory of a SnapshotRing; 0 if an argument is out of range.
 constexpr uint32_t snapshot_ring_bytes(Capacity capacity, uint32_t ticks);
 
-/// The states of a world after its last ticks, in the caller's memory. The state after tick t has the place t modulo
-/// the number of ticks. A place has room for any state of the capacity; only the used part of the state is written,
-/// without most of its zeros. The bytes are in the machine's byte order, and only this program can read them.
+/// The states of a world after its last ticks, in the caller's memory. The memory consists of one place for each tick;
+/// the state after tick t is in place t modulo the number of places. A place has room for any state of the capacity;
+/// the ring writes only the used part of the state, without most of its zeros. The bytes are in the machine's byte
+/// order, and only this program can read them.
 class SnapshotRing {
  public:
   /// Makes room for `ticks` ticks of worlds of this capacity. `memory`: 8-byte aligned, at least snapshot_ring_bytes()
   /// bytes; only the ring may use it as long as the ring is in use.
   /// Errors: out_of_range, buffer_too_small, buffer_misaligned.
   Status begin(uint8_t* memory, uint32_t memory_bytes, Capacity capacity, uint32_t ticks);
-  /// Stores the current state of the world under its tick, in place of the older tick that had the same place. Errors:
-  /// bad_argument (not begun), capacity_differs.
+  /// Stores the current state of the world under its tick. It overwrites the state of an older tick in the same place.
+  /// Errors: bad_argument (not begun), capacity_differs.
   Status keep(const World& world);
   /// Restores the world's state after `tick` ticks, and drops all later ticks.
   /// Errors: out_of_range (the ring does not have this tick), bad_argument (not begun), capacity_differs,
   /// feature_missing.
   Status restore(World& world, uint64_t tick);
-  /// Whether the ring has this tick.
+  /// Whether the ring has the state after `tick` ticks.
   bool holds(uint64_t tick) const;
 
  private:
@@ -80,8 +82,8 @@ inline constexpr uint32_t k_delta_header_bytes = 24;
 /// @endcond
 
 constexpr uint32_t delta_bytes_max(Capacity capacity) {
-  // Worst case: every word of eight bytes differs; each takes one mask byte and eight bytes. A run of equal words never
-  // takes more.
+  // In the worst case every word of eight bytes differs, and takes one mask byte and eight bytes. Equal words never
+  // take more than that.
   const uint64_t bytes = k_delta_header_bytes + uint64_t{snapshot_bytes(capacity)} / 8 * 9;
   return snapshot_bytes(capacity) == 0 || bytes > UINT32_MAX ? 0 : static_cast<uint32_t>(bytes);
 }
@@ -140,7 +142,7 @@ struct RollbackDef {
   uint32_t input_bytes = 1;        ///< bytes of a player's input for a tick, [1, k_rollback_input_bytes_max]
   uint32_t delay = 0;              ///< ticks from a local input to the tick that uses it, [0, window]
   uint32_t window = 8;             ///< ticks that may be simulated with predicted inputs, [1, k_rollback_window_max]
-  uint32_t checksum_interval = 1;  ///< a checksum is taken before every tick that is a multiple of it; 0: none
+  uint32_t checksum_interval = 1;  ///< a checksum is taken before each tick whose number is a multiple of it; 0: none
   uint32_t game_bytes = 0;         ///< GameState::count
   /// Sparse rollback: a tick that is repeated simulates only the bodies that the changed inputs reach. The results are
   /// the same. Needs more than twice the memory (docs/rollback.md). Machines may differ in this setting.
@@ -149,12 +151,12 @@ struct RollbackDef {
 
 /// The result of one call.
 struct RollbackReport {
-  uint64_t tick = 0;         ///< ticks that the world has completed
-  uint32_t ticks_again = 0;  ///< ticks that were repeated
+  uint64_t tick = 0;         ///< number of ticks that the world has completed
+  uint32_t ticks_again = 0;  ///< number of ticks that were repeated
   uint64_t went_back = 0;    ///< the first repeated tick; 0 if no tick was repeated
   /// Awake bodies simulated in the repeated ticks, summed over these ticks. 0 without RollbackDef::sparse.
   uint64_t bodies_again = 0;
-  uint32_t ticks_whole = 0;  ///< repeated ticks in which all awake bodies were simulated
+  uint32_t ticks_whole = 0;  ///< number of repeated ticks in which all awake bodies were simulated
 };
 
 /// A checksum of the state after `tick` ticks: of the world, as checksum32(), and of the GameState's bytes.
@@ -265,7 +267,7 @@ class RollbackSession {
   RollbackDef def_ = {};
   TickMaker maker_ = {};
   GameState game_ = {};
-  SnapshotRing states_;                                ///< without `sparse_`
+  SnapshotRing states_;                                ///< states of the last ticks; unused if `sparse_` is not null
   [[maybe_unused]] SparseRollback* sparse_ = nullptr;  ///< null: all bodies are simulated again
   uint8_t* games_ = nullptr;                           ///< game states of the ticks in `states_`
   uint8_t* inputs_ = nullptr;                          ///< [tick][player]: the known or predicted input
@@ -322,8 +324,8 @@ constexpr SparseLayout sparse_layout(Capacity capacity, uint32_t window) {
   end = 0;
   place(k_sparse_control_bytes);
   layout.image_bytes = snapshot_bytes(capacity);
-  // The states between ticks: one for each tick of the window, and one more. The states just before the step of each
-  // tick, and one spare image.
+  // window + 1 states between ticks, window states just before the steps of these ticks (after the calls of the game),
+  // and one spare state.
   layout.images = place(uint64_t{layout.image_bytes} * (2 * window + 2));
   layout.records = place(record * window);
   layout.boxes = place(bounds);
@@ -342,10 +344,10 @@ struct RollbackLayout {
   uint64_t bytes;  ///< 0: out of range
 };
 
-// The number of ticks whose inputs are kept. Let t be the first tick for which a machine lacks an input. The machine is
-// up to one window ahead of t. A remote player is up to one delay and one window ahead of the machine, and its inputs
-// are one delay ahead of the player. The machine may have to send its own inputs of the last window and delay before t.
-// A delay is at most one window.
+// The number of ticks whose inputs are kept. Let t be the first tick for which a machine lacks an input. After t, the
+// machine is up to one window ahead. A remote player is up to one delay and one window ahead of the machine, and its
+// inputs are one delay ahead of the player. Before t, the machine may have to send its own inputs of the last window
+// and delay again. A delay is at most one window, so at most 4 windows after t and 2 windows before t are needed.
 constexpr uint32_t rollback_ticks_kept(uint32_t window) { return 6 * window + 2; }
 
 constexpr RollbackLayout rollback_layout(Capacity capacity, const RollbackDef& def) {
@@ -402,8 +404,8 @@ constexpr uint32_t sync_test_bytes(Capacity capacity, uint32_t ticks, uint32_t g
 }
 
 /// Tests the TickMaker of a session: simulates ticks, restores the state before them, repeats them, and compares the
-/// digests. `game`: the state besides the world that the maker changes; {}: none. Afterwards the world and `game` have
-/// the state after the repeated ticks.
+/// digests after each tick. `game`: the state besides the world that the maker changes; {}: none. Afterwards the world
+/// and `game` have the state after the repeated ticks.
 /// Errors: digest_differs (`report` has the tick; the world is at this tick), out_of_range, buffer_too_small,
 /// buffer_misaligned, bad_argument (no maker; inputs without bytes; a maker that did not step the world exactly once).
 Status sync_test(World& world, const SyncTestDef& def, TickMaker maker, uint8_t* memory, uint32_t memory_bytes,

@@ -21,13 +21,13 @@ enum class ShapeType : uint32_t {
 };
 
 /// A shape in its body's frame, centred on the centre of mass. Make one with the functions below.
-/// The *sizes* of a shape are those of its members `radius`, `half_length` and `half_extents` that its type uses, m:
-/// [2^-14, 2^14] (0.06 mm to 16 km). The largest size is at most 2^14 times the smallest. In a world, the bounding
-/// radius (with `rounding`) must be below 2^15 m and at most 2^14 times the smallest size.
+/// The *sizes* of a shape are those of its members `radius`, `half_length` and `half_extents` that its type uses. Each
+/// size is in [2^-14, 2^14] m (0.06 mm to 16 km), and the largest is at most 2^14 times the smallest. In a world, the
+/// bounding radius (with `rounding`) must be below 2^15 m and at most 2^14 times the smallest size.
 struct Shape {
   ShapeType type = ShapeType::sphere;  ///< selects which of the members below are used
   Real radius = 0.5;                   ///< m; of a sphere, capsule, cylinder, and of a cone's base
-  Real half_length = 0.0;  ///< m; half the length along local y of a capsule's core segment, a cylinder or a cone
+  Real half_length = 0.0;  ///< m; half the length of a capsule's core segment, a cylinder or a cone, along local y
   Vec3<Real> half_extents = {0.5, 0.5, 0.5};  ///< m; of a box
   Real rounding = 0.0;  ///< m; radius of the ball that rounds a box, cylinder, cone or hull; 0, or a valid size
   uint32_t asset = 0;   ///< of a hull, terrain or compound: index in the world's asset table
@@ -63,8 +63,8 @@ constexpr Shape cylinder(Real radius, Real half_length) {
   shape.half_length = half_length;
   return shape;
 }
-/// The cone about local y, of height 2 half_length, m: its base of the given radius is at y = -half_length / 2, its
-/// apex at y = 3 half_length / 2, so that the origin is its centre of mass.
+/// The cone about local y, of height 2 half_length, m. Its base, of the given radius, m, is at y = -half_length / 2;
+/// its apex is at y = 3 half_length / 2. Therefore the origin is its centre of mass.
 constexpr Shape cone(Real radius, Real half_length) {
   Shape shape;
   shape.type = ShapeType::cone;
@@ -73,23 +73,24 @@ constexpr Shape cone(Real radius, Real half_length) {
   return shape;
 }
 /// The cooked hull (docs/hull.md) of the asset with the index `asset`, which bind_asset() must have bound. The hull's
-/// origin is the body's origin. A dynamic body needs a hull in its principal frame (HullFrame). For create_body();
-/// without a world, use make_hull().
+/// origin is the body's origin. A dynamic body needs a hull in its principal frame (HullFrame). This shape is for
+/// create_body(); without a world, use make_hull().
 constexpr Shape hull(uint32_t asset) {
   Shape shape;
   shape.type = ShapeType::hull;
   shape.asset = asset;
   return shape;
 }
-/// Returns `shape`, rounded: its Minkowski sum with a ball of radius `rounding`, m. For box, cylinder, cone and hull.
+/// Returns the Minkowski sum of `shape` and a ball of radius `rounding`, m. Range: `shape` is a box, cylinder, cone or
+/// hull.
 constexpr Shape rounded(Shape shape, Real rounding) {
   shape.rounding = rounding;
   return shape;
 }
 /// A terrain: the triangle mesh (docs/mesh.md) or height field (docs/height_field.md) of the asset with the index
-/// `asset`, which bind_asset() must have bound. For fixed and kinematic bodies only. The terrain's origin is the body's
-/// origin. A terrain is a surface without an inside: a body on its back side is pushed out on the back side. A
-/// one-sided terrain does not push bodies on its back side.
+/// `asset`, which bind_asset() must have bound. Only fixed and kinematic bodies can have this shape. The terrain's
+/// origin is the body's origin. A terrain is a surface without an inside: it pushes a body on its back side out on
+/// that side. A one-sided terrain does not push bodies on its back side.
 constexpr Shape terrain(uint32_t asset) {
   Shape shape;
   shape.type = ShapeType::terrain;

@@ -6,18 +6,18 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Watches how the loops of a step are shared, for tests and measurements. A loop consists of parts; the threads take
-/// one part after the other. All functions may be null.
+/// Watches how threads share the loops of a step, for tests and measurements. A loop consists of parts; each thread
+/// takes one part after the other. All functions may be null.
 struct TaskProbe {
-  /// Returns which part of a loop of `parts` parts a thread tries to take as its `i`th. For i = 0, 1, ... parts - 1 the
-  /// results must be all the numbers 0 to parts - 1, in any order. Null: each thread begins at a part of its own and
-  /// goes on in ascending order.
+  /// Returns the index of the part that a thread tries to take in its attempt number `i`, from 0 on, in a loop of
+  /// `parts` parts. For i = 0, 1, ... parts - 1 the results must be all the numbers 0 to parts - 1, in any order. Null:
+  /// each thread begins at a part of its own and goes on in ascending order.
   uint32_t (*part)(void* context, uint32_t i, uint32_t parts) = nullptr;
   void (*loop_begins)(void* context, uint32_t parts) = nullptr;  ///< called by the thread that runs the stage
-  void (*loop_ends)(void* context) = nullptr;                    ///< as `loop_begins`
-  void (*part_begins)(void* context) = nullptr;                  ///< called by the thread that has taken a part
-  void (*part_ends)(void* context) = nullptr;                    ///< as `part_begins`
-  void* context = nullptr;                                       ///< passed to the functions
+  void (*loop_ends)(void* context) = nullptr;                    ///< called by the thread that runs the stage
+  void (*part_begins)(void* context) = nullptr;                  ///< called by the thread that has taken the part
+  void (*part_ends)(void* context) = nullptr;                    ///< called by the thread that has taken the part
+  void* context = nullptr;                                       ///< passed to these functions
 };
 
 /// Runs parts of a step, and the queries of a batch (query_batch()), on the caller's threads. Set WorldHooks::tasks to
@@ -33,9 +33,12 @@ struct Tasks {
   /// machine run (std::this_thread::yield()). May be null.
   void (*wait)(void* context) = nullptr;
   void* context = nullptr;  ///< passed to `run` and `wait`
-  uint32_t workers = 0;     ///< the `count` of each call of `run`: the number of free threads. Below 2: as a null `run`
-  /// A stage with fewer bodies or pairs, or a batch with fewer queries, runs on one thread, because to start more
-  /// threads takes longer than they save. 0 means 96. 1 is for tests: then each element of a loop is a part of its own.
+  /// The number of threads that the caller can lend; the library passes it to `run` as `count`. If it is below 2, `run`
+  /// is not called: all work runs on the calling thread.
+  uint32_t workers = 0;
+  /// A stage with fewer bodies or pairs than this, or a batch with fewer queries, runs on one thread, because starting
+  /// more threads takes longer than they save. 0 means 96. 1 is for tests: loops then have as many parts as possible,
+  /// at most 64.
   uint32_t least = 0;
   const TaskProbe* probe = nullptr;  ///< see TaskProbe
 };

@@ -10,8 +10,8 @@ inline namespace DETENT_NAMESPACE {
 /// The motion of a body in a step, at constant velocity and constant angular velocity, world axes.
 struct Motion {
   Pose start = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};  ///< at the beginning of the step
-  Vec3<Real> displacement = {};                          ///< m over the step; each component within 2^14
-  Vec3<Real> rotation_vector = {};                       ///< over the step, rad; length at most 2^16
+  Vec3<Real> displacement = {};                          ///< in the whole step, m; each component within 2^14
+  Vec3<Real> rotation_vector = {};                       ///< in the whole step, rad; length at most 2^16
 };
 
 /// Whether two moving shapes collide in a step.
@@ -24,23 +24,23 @@ enum class ToiOutcome : uint32_t {
 /// When and where two moving shapes collide.
 struct TimeOfImpact {
   ToiOutcome outcome = ToiOutcome::undecided;  ///< whether the shapes collide
-  /// Fraction of the step, never late: before `time` the shapes do not touch, unless they touch at the start. 1 if the
+  /// The time as a fraction of the step. Before it the shapes do not touch, unless they touch at the start. 1 if the
   /// outcome is `clear`.
   Fraction time = 0.0;
   Vec3<Unit> normal = {};  ///< at `time`, from A to B, world axes; zero if the cores touch at the start
   Vec3<Real> point = {};   ///< of a hit, on A's surface, m, from A's position at `time`, world axes
-  uint32_t gjk_calls = 0;  ///< calls of GJK; a call that confirms the hit with one support point does not count
-  uint32_t passes = 0;     ///< time intervals tried
+  uint32_t gjk_calls = 0;  ///< calls of GJK, without a last call that only confirms the hit in one iteration
+  uint32_t passes = 0;     ///< number of time intervals tested
 };
 
-/// The largest gap at the time of a hit, as a fraction of the larger core diameter; the rounding errors in SPEC.md are
-/// added.
+/// The largest gap at the time of a hit, as a fraction of the larger core diameter. The gap can exceed this by the
+/// rounding errors in SPEC.md.
 inline constexpr double k_toi_tolerance = 1e-6;
 
 /// Computes when the distance of two moving shapes first is within the tolerance.
 /// Tolerance: k_toi_tolerance times the larger core diameter, plus the rounding errors in SPEC.md. Errors:
-/// not_normalised; out_of_range, also if the positions are 2^16 m or more apart in a component and the bounding spheres
-/// might touch or one shape is a half-space; bad_argument for two half-spaces.
+/// not_normalised; bad_argument for two half-spaces; out_of_range. Positions that are 2^16 m or more apart in a
+/// component are out of range if one shape is a half-space, or if the bounding spheres might touch.
 Status time_of_impact(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b,
                       TimeOfImpact& result);
 

@@ -8,17 +8,20 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// Methods for the time of impact of two convex shapes. The methods from `paper` to `constant_angular_velocity` advance
-/// along certified separating axes. They differ in how far they advance along one axis. The other methods are from the
-/// literature, for comparison.
+/// the time along certified separating axes. They differ in how far they advance the time along one axis. The other
+/// methods are from the literature, for comparison.
 enum class ToiMethod {
-  /// Coumans' Algorithm 1: bounds the approach speed along the axis n by n.v + |wA| rA + |wB| rB, with the core radii
-  /// rA and rB. One advance per axis.
+  /// Coumans' Algorithm 1: advances once along each axis n. It bounds the approach speed along n by
+  /// n.v + |wA| rA + |wB| rB. Here v is the relative velocity, wA and wB are the angular velocities, and rA and rB are
+  /// the radii of the cores.
   paper,
-  /// As `paper`, but with the bound n.v + |n x wA| rA + |n x wB| rB.
+  /// As `paper`, but with the smaller bound n.v + |n x wA| rA + |n x wB| rB.
   first_order,
-  second_order,  ///< repeats advances along an axis fixed in the world, by a concave bound of the separation
-  corotating,    ///< as second_order, but the axis rotates with the body that has the face or edge
-  /// As constant_angular_velocity, but both bodies move in the world frame. The other methods move B relative to A.
+  /// Advances along an axis, which is fixed in the world, as long as it separates the shapes. Each advance follows from
+  /// a concave lower bound of the separation as a function of time.
+  second_order,
+  corotating,  ///< as second_order, but the axis rotates with the body that has the face or edge
+  /// As constant_angular_velocity, but moves both bodies in the world frame. The other methods move B relative to A.
   /// Both formulations are from Coumans.
   world_space,
   /// As corotating, but an axis that belongs to no face (between vertices, edges or rims) rotates so that it also
@@ -33,7 +36,8 @@ enum class ToiMethod {
   canny,
 };
 
-/// time_of_impact() (toi.h) by a selected method. Errors: bad_argument for a shape that the method does not support.
+/// Computes the time of impact as time_of_impact() (toi.h) does, but by the given method. Errors: those of
+/// time_of_impact(), and bad_argument for a shape that the method does not support.
 Status time_of_impact_by(ToiMethod method, const Convex& a, const Motion& motion_a, const Convex& b,
                          const Motion& motion_b, TimeOfImpact& result);
 

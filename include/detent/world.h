@@ -13,18 +13,18 @@
 ///
 /// Threads: the library has no global state. Calls on different worlds may run concurrently. On one world, functions
 /// that take `const World&` may run concurrently with each other; a call that takes `World&` must run alone. In f32 and
-/// f64, every call that computes sets the floating-point modes (rounding, flush-to-zero) that it needs, and restores
-/// those of the caller. A step uses several threads if the caller lends them (WorldHooks::tasks).
+/// f64, every call that computes sets the floating-point modes (rounding, flush-to-zero) that it needs, and at its end
+/// restores the modes of the caller. A step uses several threads if the caller lends them (WorldHooks::tasks).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// How many objects of each kind a world can hold. Fixed for the life of the world; at most 2^20 each.
+/// How many objects of each kind a world can hold, at most 2^20 of each. A world's capacity never changes.
 struct Capacity {
   uint32_t bodies = 0;    ///< at least 1
-  uint32_t contacts = 0;  ///< one for a pair of convex bodies, up to 8 for a pair with a terrain or compound
+  uint32_t contacts = 0;  ///< one for a pair of convex bodies, up to 16 for a pair with a terrain or compound
   uint32_t assets = 0;    ///< assets that can be bound
-  /// Whether contact points can be recycled (WorldDef::contact_recycle_distance). Takes 160 bytes for each contact
-  /// (f64: 272).
+  /// Whether contact points can be recycled (WorldDef::contact_recycle_distance). This takes 160 bytes for each contact
+  /// of the capacity (f64: 272).
   bool manifolds = true;
   uint32_t joints = 0;  ///< joints
   uint32_t sensed = 0;  ///< pairs of a sensor and a body within it; 0: no sensors
@@ -35,7 +35,7 @@ struct Capacity {
   }
 };
 
-/// How the solver corrects penetration. Stored: a value is never reused.
+/// How the solver corrects penetration. Stored in snapshots and recordings: a value is never reused.
 enum class Stabilisation : uint32_t {
   /// Soft contacts (damped springs) followed by a relaxation pass, which removes the speed that the springs add; needed
   /// by tall stacks.
@@ -54,20 +54,20 @@ struct WorldDef {
   /// How many objects of each kind the world can hold.
   Capacity capacity = {};
   Vec3<Real> gravity = {Real(0.0), Real(-9.81), Real(0.0)};  ///< m/s^2; each component within +-1024
-  Real tick = Real(1.0 / 60.0);                              ///< s, the time of one step, [2^-14, 1/4]
+  Real tick = Real(1.0 / 60.0);                              ///< length of a step, s, [2^-14, 1/4]
   /// Solver substeps per tick, [1, 64]; 0: the step chooses the number for each island from its contact loads and its
   /// joints.
   uint32_t substeps = 0;
   uint32_t substeps_max = 32;  ///< largest number that the step chooses if `substeps` is 0, [1, 64]
   /// The accuracy of contacts at rest: the step chooses so many substeps that a contact sinks under its load by at most
-  /// this fraction of the smaller extent, [2^-12, 2^-3]. A quarter of the value takes about twice the substeps. For
-  /// this accuracy an island takes at most `substeps_max` substeps, at most 6 if it has joints, and fewer if it has
+  /// this fraction of the smaller extent, [2^-12, 2^-3]. A quarter of the value takes about twice as many substeps. To
+  /// reach this accuracy, an island takes at most `substeps_max` substeps, or 6 if it has joints, and fewer if it has
   /// many contacts (SPEC.md, "Substeps").
   Real resting_penetration = Real(1.0 / 144);
   uint32_t iterations = 1;  ///< solver iterations over the contacts in a substep, [1, 64]
-  /// [0, 30]. The iterations of a substep end early if the last iteration changed no velocity by more than
-  /// g h / 2^convergence. Here h is the length of the substep, s, and g the magnitude of the gravity, but at least
-  /// 1 m/s^2.
+  /// The iterations of a substep end early if the last iteration changed no velocity by more than g h / 2^convergence.
+  /// Here h is the length of the substep, s, and g is the magnitude of the gravity, or 1 m/s^2 if that is larger.
+  /// Range: [0, 30].
   uint32_t convergence = 12;
   /// How the solver corrects penetration.
   Stabilisation stabilisation = Stabilisation::soft;
@@ -78,34 +78,36 @@ struct WorldDef {
   /// Damping ratio of soft contacts, [0, 64]. Contacts between two dynamic bodies use 0.7 times this value, all other
   /// contacts half of it.
   Real damping_ratio = 10.0;
-  /// Approach speed below which a contact does not rebound, as a multiple of sqrt(g x smaller extent), with the gravity
-  /// g; [0, 64].
+  /// Approach speed below which a contact does not rebound, as a multiple of sqrt(g x smaller extent). Here g is the
+  /// magnitude of the gravity, or 1 m/s^2 if that is larger. Range: [0, 64].
   Real restitution_threshold = 0.25;
   bool continuous = true;  ///< continuous collision: bodies collide at the time of impact, however fast they move
   bool sleeping = true;    ///< islands at rest fall asleep: steps skip them until a contact, joint or call wakes them
   /// Contact margin (breaking distance) of a pair at rest, as a fraction of the pair's smaller extent, [2^-10, 2^-4].
   /// Two surfaces have contact points if their distance is below the margin. For a moving pair, a step adds the
-  /// distance by which the bodies can approach in a tick.
+  /// distance by which the bodies can approach in a tick, but at most a quarter of the smaller extent (if a body has
+  /// joints, twice the smaller extent).
   Real contact_margin = Real(1.0 / 64);
-  /// The contact points of a pair are recycled until the bodies' relative motion since their computation exceeds this
-  /// fraction of the pair's smaller extent; [0, 1/64]. 0 if Capacity::manifolds is false.
+  /// The contact points of a pair are recycled until the bodies' relative motion since the points were computed exceeds
+  /// this fraction of the pair's smaller extent; [0, 1/64]. If Capacity::manifolds is false, the world uses 0.
   Real contact_recycle_distance = Real(1.0 / 256);
-  ManifoldReduction reduction = ManifoldReduction::projected_extremes;  ///< which of more than four points are kept
+  /// Which four contact points of a pair are kept if there are more.
+  ManifoldReduction reduction = ManifoldReduction::projected_extremes;
 };
 
 /// The stages of a step, in their order.
 enum class StepStage : uint32_t {
-  find_pairs,     ///< moving bodies, their bounds, pairs with overlapping bounds, and bodies that wake
-  collide_pairs,  ///< contact points of pairs, and the rows of the solver
-  build_islands,  ///< islands, solve order, loads, numbers of substeps
-  solve_islands,  ///< the substeps
-  raise_events,   ///< contact events
-  advance,        ///< sweeps, continuous collision and sensors
-  finalise,       ///< new poses
-  store,          ///< bodies that fall asleep, contacts for the next tick, broken joints, body events
+  find_pairs,     ///< finds the moving bodies, their bounds and the pairs with overlapping bounds; wakes bodies
+  collide_pairs,  ///< computes the contact points of the pairs and the rows of the solver
+  build_islands,  ///< finds the islands, the order of the solve, the loads and the numbers of substeps
+  solve_islands,  ///< computes the substeps
+  raise_events,   ///< writes the contact events
+  advance,        ///< computes the sweeps, continuous collision and the sensors
+  finalise,       ///< computes the new poses
+  store,          ///< puts bodies to sleep, stores the contacts, removes broken joints and writes body events
 };
-inline constexpr uint32_t k_step_stage_count = 8;  ///< how many stages there are
-/// The name of the enumerator. Never null.
+inline constexpr uint32_t k_step_stage_count = 8;  ///< number of stages
+/// Returns the name of a stage: that of its enumerator. Never null.
 const char* stage_name(StepStage stage);
 
 /// Times of the stages of a step, by the caller's clock, summed over steps. Set WorldHooks::profile to measure them. A
@@ -119,13 +121,13 @@ struct Profile {
 
 struct StepReport;
 
-/// A callback at the end of each stage of a step. An idle step makes no calls: if no body moves and none was changed,
-/// the step only counts the tick. The callback is for tools that find the stage in which two machines begin to differ.
+/// A callback at the end of each stage of a step. An idle step does not call it: if no body moves and none was changed,
+/// a step only counts the tick. The callback is for tools that find the stage in which two machines begin to differ.
 /// Set WorldHooks::observer to use it. An observer does not change the state.
 struct StepObserver {
-  /// `contacts`: number of contacts that the step has found so far, in its work space. The callback must not change the
-  /// world. The state is incomplete within the step, so the callback may call only these functions of world.h:
-  /// `digest`, `save` and the getters.
+  /// `contacts`: number of contacts that the step has found so far. They are in its work space, not yet in the state.
+  /// The callback must not change the world. The state is incomplete within the step, so the callback may call only
+  /// these functions of world.h: `digest`, `save` and the getters.
   void (*stage_ended)(void* context, const World& world, StepStage stage, uint32_t contacts) = nullptr;
   void* context = nullptr;  ///< passed to `stage_ended`
   /// @cond
@@ -145,11 +147,11 @@ struct WorldHooks {
   AssetTable assets = {};  ///< the assets that can be bound (asset.h)
   /// The rules that Filter::rule names.
   FilterRuleTable filter_rules = {};
-  ContactEventBuffer contact_events = {};    ///< each step fills it from its front
-  JointEventBuffer joint_events = {};        ///< as contact_events: joints that broke
-  SensorEventBuffer sensor_events = {};      ///< as contact_events: bodies that entered or left a sensor
-  BodyEventBuffer body_events = {};          ///< as contact_events: bodies that fell asleep or woke
-  CapacityEventBuffer capacity_events = {};  ///< as contact_events: entries that a full pool dropped
+  ContactEventBuffer contact_events = {};    ///< for contact events; each step fills every buffer from its front
+  JointEventBuffer joint_events = {};        ///< for events of joints that broke
+  SensorEventBuffer sensor_events = {};      ///< for events of bodies that entered or left a sensor
+  BodyEventBuffer body_events = {};          ///< for events of bodies that fell asleep or woke
+  CapacityEventBuffer capacity_events = {};  ///< for events of entries that a step dropped because a pool was full
   Profile* profile = nullptr;                ///< times of the stages of each step
   const StepObserver* observer = nullptr;    ///< called at the end of each stage of each step
   Tasks tasks = {};                          ///< threads for parts of each step, and for batches of queries
@@ -177,17 +179,17 @@ struct ContactReport {
   /// and pairs that have no contact because an asset's bytes are missing.
   uint32_t capped = 0;
   uint32_t sweeps_saved = 0;  ///< solver iterations skipped because an island converged (WorldDef::convergence)
-  uint64_t substeps = 0;      ///< the substeps of its island for each contact, summed: measures the work of the solver
-  /// Contacts that are solved last in their island, because other contacts of their two bodies use all 63 colours. (A
-  /// colour is a set of contacts that share no dynamic body.)
+  uint64_t substeps = 0;      ///< sum over all contacts of their islands' substeps: measures the work of the solver
+  /// Contacts that found no colour, and are therefore solved last in their island. A colour is a set of contacts that
+  /// share no dynamic body. A contact finds no colour if the other contacts of its two bodies use all 63 colours.
   uint32_t colour_overflows = 0;
 };
 
 /// The joints in one step.
 struct JointReport {
-  uint32_t count = 0;      ///< joints of at least one awake body
+  uint32_t count = 0;      ///< joints with at least one awake body
   uint32_t broken = 0;     ///< joints that broke and were removed
-  uint32_t undecided = 0;  ///< joint solves that reached their largest number of tries with a limit or motor undecided
+  uint32_t undecided = 0;  ///< joint solves that gave up before the state of every limit and drive was decided
 };
 
 /// Continuous collision in one step.
@@ -198,10 +200,10 @@ struct CcdReport {
   /// Bodies that stopped before the end of the tick. Reasons: too many impacts (docs/continuous_collision.md), a full
   /// impact pool, or an overlap that is too deep. They stay at their last safe pose until the tick ends.
   uint32_t bodies_stopped = 0;
-  Real lost_time = 0.0;  ///< for each stopped body the fraction of the tick for which it stood still, summed
+  Real lost_time = 0.0;  ///< sum over the stopped bodies: the fraction of the tick for which the body stood still
   uint32_t tests = 0;    ///< times of impact computed
-  /// Pairs not tested for impact because they are too slow to collide in the tick. A pair counts once more after each
-  /// impact of one of its bodies. The same holds for `kept_apart`.
+  /// Pairs not tested for impact because they are too slow to collide in the tick. After an impact of one of its
+  /// bodies, a pair can count again, here and in `kept_apart`.
   uint32_t skipped = 0;
   uint32_t kept_apart = 0;  ///< pairs not tested for impact because their contacts keep them apart
 };
@@ -216,17 +218,18 @@ struct LossReport {
   uint32_t contacts = 0;
   /// The part of `contacts` that was beyond 16 for one pair and not merged. A larger capacity does not prevent this.
   uint32_t contact_parts = 0;
-  /// Couplings between joints that had no room in the joint solver, because the joints form too many loops. The joints
-  /// that they couple become softer.
+  /// Couplings of two joints that had no room in the joint solver, because the joints form too many loops. The joints
+  /// of such a coupling become softer.
   uint32_t joint_couplings = 0;
   uint32_t impacts = 0;  ///< impacts beyond the impact pool (Capacity::contacts): their bodies stop early
-  /// Bodies within or passing through a sensor, beyond Capacity::sensed. The sensor does not report them.
+  /// Bodies beyond Capacity::sensed that are within a sensor or passed through it. The sensor does not report them.
   uint32_t sensed = 0;
-  uint32_t sensed_undecided = 0;  ///< bodies that count as within or through a sensor because a test was undecided
+  /// Bodies that count as within a sensor, or as passing through it, because a test was undecided.
+  uint32_t sensed_undecided = 0;
 };
 
-/// The numbers of events that one step wrote to the buffers of WorldHooks, and of those that it dropped. 0 for events
-/// without a buffer.
+/// The numbers of events that one step wrote to the buffers of WorldHooks, and the numbers of those that it dropped. If
+/// the caller gave no buffer for a kind of event, the numbers of this kind are 0.
 struct EventReport {
   uint32_t contact = 0;   ///< events written to WorldHooks::contact_events
   uint32_t joint = 0;     ///< events written to WorldHooks::joint_events
@@ -245,7 +248,7 @@ struct StepReport {
   uint64_t tick = 0;            ///< ticks completed since the world was created
   uint32_t bodies = 0;          ///< bodies in the world
   uint32_t awake = 0;           ///< dynamic bodies that took part in the step
-  uint32_t islands = 0;         ///< groups of awake bodies that contacts or joints connect; a single body counts
+  uint32_t islands = 0;         ///< groups of awake bodies that contacts or joints connect; a body alone counts, too
   uint32_t substeps_max = 0;    ///< the largest number of substeps of any island
   uint32_t woke = 0;            ///< sleeping bodies that contacts, joints or impacts woke in the step
   uint32_t fell_asleep = 0;     ///< bodies that fell asleep at the end of the step
@@ -280,7 +283,7 @@ struct WorldInfo {
 /// out_of_range, bad_argument (`reduction` or `stabilisation` is not a value of its enumeration), feature_missing.
 Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, const WorldHooks& hooks,
                     const FeatureTable& features, World& world);
-/// The same with all features.
+/// As create_world() above, with all features.
 inline Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, const WorldHooks& hooks,
                            World& world) {
   return create_world(block, block_bytes, def, hooks, feature_table<Features::all>, world);
@@ -290,11 +293,11 @@ inline Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef&
 /// Errors: pool_full (also for a sensor if Capacity::sensed is 0), bad_argument, out_of_range, not_normalised,
 /// asset_missing (the shape's asset is not bound), feature_missing, rule_missing.
 Status create_body(World& world, const BodyDef& def, BodyId& id);
-/// Removes a body and its joints. Its contacts end at once; the bodies that it touched or was joined to wake.
+/// Removes a body and its joints. Its contacts end at once. The bodies that touched it or were joined to it wake.
 /// Errors: bad_id.
 Status destroy_body(World& world, BodyId id);
-/// Moves a body to a pose, m, world, without collision on the way. The body keeps its velocity. It wakes, and so do the
-/// bodies that touch it or are joined to it.
+/// Moves a body to a pose, m, world, without collisions on the way. The body keeps its velocity. The body wakes, and so
+/// do the bodies that touch it or are joined to it.
 /// Errors: bad_id, out_of_range, not_normalised.
 Status set_pose(World& world, BodyId id, const Position& position, const Quat& rotation);
 /// Sets a body's velocity, m/s, and angular velocity, rad/s, both in world axes; ranges as in BodyDef.
@@ -337,38 +340,39 @@ StepReport step(World& world);
 
 /// Whether the id names a body of this world.
 bool is_valid(const World& world, BodyId id);
-/// The pose of a body, m, world. Errors: bad_id.
+/// Gets the pose of a body, m, world. Errors: bad_id.
 Status get_pose(const World& world, BodyId id, Pose& pose);
-/// The velocity of the centre of mass, m/s, and the angular velocity, rad/s, both in world axes. Overflow: components
-/// of the angular velocity are clamped to the range of Real; only those of a body with a bounding radius below 12.5 cm
-/// can exceed it. Errors: bad_id.
+/// Gets the velocity of the centre of mass, m/s, and the angular velocity, rad/s, both in world axes. Overflow:
+/// components of the angular velocity are clamped to the range of Real; only those of a body with a bounding radius
+/// below 12.5 cm can exceed it. Errors: bad_id.
 Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Real>& angular_velocity);
-/// The mass, kg; 0 for fixed and kinematic bodies. Getters of the other properties: body.h.
+/// Gets the mass, kg; 0 for fixed and kinematic bodies. body.h has the getters of the other properties.
 /// Errors: bad_id.
 Status get_mass(const World& world, BodyId id, Scaled& mass);
-/// BodyDef::user_data, or the value last set by set_user_data(). Errors: bad_id.
+/// Gets BodyDef::user_data, or the value that set_user_data() last set. Errors: bad_id.
 Status get_user_data(const World& world, BodyId id, uint32_t& user_data);
 /// Gets the filter of a body. Errors: bad_id.
 Status get_filter(const World& world, BodyId id, Filter& filter);
-/// Whether a body takes part in the next step. Fixed bodies, and kinematic bodies at rest, are never awake.
+/// Sets `awake` to whether a body takes part in the next step. Fixed bodies, and kinematic bodies at rest, are never
+/// awake.
 /// Errors: bad_id.
 Status is_awake(const World& world, BodyId id, bool& awake);
 /// The world's capacity and counts, as they are now.
 WorldInfo get_info(const World& world);
-/// Iterates over bodies in slot order: the first valid id after `previous` (null to begin), or null at the end.
+/// Iterates over bodies in slot order: returns the first valid id after `previous` (null to begin), or null at the end.
 BodyId next_body(const World& world, BodyId previous);
 
-/// A 64-bit hash of the persistent state, the same on every target and for every capacity. SPEC.md, "Digest".
+/// A 64-bit hash of the persistent state, the same on every target and for every capacity (SPEC.md, "Digest").
 uint64_t digest(const World& world);
 
 /// Bytes of a snapshot of a world of this capacity; 0 if the capacity is out of range.
 constexpr uint32_t snapshot_bytes(Capacity capacity);
 /// Copies the persistent state into `bytes`. Errors: buffer_too_small.
 Status save(const World& world, uint8_t* bytes, uint32_t byte_count);
-/// Restores a snapshot that this program saved from a world of the same capacity. Checks only the header, and copies
-/// the bytes.
+/// Restores a snapshot that this program saved from a world of the same capacity. The function checks only the header
+/// of the snapshot, and copies the bytes.
 /// Errors: truncated, not_detent, format_unknown, simulation_differs, config_differs, capacity_differs, feature_missing
-/// (the world that saved it had a feature that this world lacks).
+/// (the saved world had a feature that this world lacks).
 Status restore(World& world, const uint8_t* bytes, uint32_t byte_count);
 /// Restores a snapshot from an untrusted source: every byte is checked before the world is changed. `bytes` must be
 /// 8-byte aligned; it is used as work space, and its content is unspecified afterwards.
@@ -378,23 +382,23 @@ Status load(World& world, uint8_t* bytes, uint32_t byte_count);
 /// The definition that creates an empty world with this world's settings and capacity.
 WorldDef get_settings(const World& world);
 /// Changes all settings and wakes every body; `def.capacity` is ignored. A force that was applied since the last step
-/// still changes the velocity by what it adds in a tick of the old length.
+/// still changes the velocity by as much as it does in a tick of the old length. Example:
 ///
 ///     WorldDef def = get_settings(world);
 ///     def.substeps = 8;
 ///     Status status = set_settings(world, def);
 ///
-/// Errors: those of create_world() for settings: out_of_range, bad_argument, feature_missing.
+/// Errors: those of create_world() for a wrong setting: out_of_range, bad_argument, feature_missing.
 Status set_settings(World& world, const WorldDef& def);
 
 /// The largest number of entries that any recorded step needed in each pool of a world. All 0 before the first step.
 struct CapacityUse {
   uint32_t bodies = 0;    ///< bodies in the world
-  uint32_t contacts = 0;  ///< contacts kept (those of sleeping bodies included) and dropped
+  uint32_t contacts = 0;  ///< contacts, kept (those of sleeping bodies included) and dropped
   /// Pairs with overlapping bounds, kept and dropped; the pool holds 2 x Capacity::contacts.
   uint32_t pairs = 0;
-  /// Pairs of continuous collision, kept and dropped, in steps that dropped some; the pool holds Capacity::contacts. 0
-  /// if no step dropped any.
+  /// Pairs of continuous collision, kept and dropped, in steps that dropped such pairs; 0 if no step dropped any. The
+  /// pool holds Capacity::contacts.
   uint32_t impacts = 0;
   uint32_t joints = 0;      ///< joints in the world
   uint32_t sensed = 0;      ///< bodies within sensors, kept and dropped
@@ -419,8 +423,8 @@ constexpr void note_use(const StepReport& report, const WorldInfo& after, Capaci
 }
 
 /// Returns a capacity with room for the recorded use plus a quarter of it, rounded up, and for at least one body.
-/// `assets` and `manifolds` are not recorded, but copied from `now`. If entries were dropped, a run with the larger
-/// capacity moves differently, and may need still more capacity: record that run too.
+/// `assets` and `manifolds` are not recorded, but copied from `now`. If entries were dropped, bodies move differently
+/// in a run with the larger capacity, and that run may need still more capacity: record it too.
 constexpr Capacity suggest_capacity(const CapacityUse& use, const Capacity& now) {
   const auto with_spare = [](uint32_t count) {
     const uint32_t spare = count / 4 + (count % 4 != 0 ? 1 : 0);
@@ -457,11 +461,11 @@ struct WorldStorage {
     def.capacity = capacity;
     return create_world(block, k_bytes, def, hooks, features, world);
   }
-  /// The same with all features.
+  /// As create() above, with all features.
   Status create(const WorldDef& def, const WorldHooks& hooks, World& world) {
     return create(def, hooks, feature_table<Features::all>, world);
   }
-  /// The same without hooks.
+  /// As create() above, without hooks.
   Status create(const WorldDef& def, World& world) { return create(def, {}, world); }
 };
 

@@ -4,8 +4,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The first of the indices from 0 to before `count` for which `is_before` is false; `count` if there is none. Range:
-/// `is_before` is true for all smaller indices and false for all larger ones.
+/// Returns the least index in [0, count) for which is_before(index) is false; `count` if there is none. Range:
+/// `is_before` is true for all indices below the result, and false for all others.
 template <class IsBefore>
 inline uint32_t partition_point(uint32_t count, const IsBefore& is_before) {
   uint32_t low = 0, high = count;

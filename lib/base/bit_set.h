@@ -4,7 +4,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A set of bits in words of 32; bit 0 is the lowest bit of the first word. Visits are in ascending order.
+/// A set of bits in words of 32 bits; bit 0 is the lowest bit of the first word. Bits are visited in ascending order.
 struct BitSet {
   Span<uint32_t> words;
 

@@ -2,8 +2,8 @@
 #include <detent/config.h>
 #include <string.h>
 
-/// Comparison of bytes, and conversion of canonical bytes, which are little-endian. No other file tests the machine's
-/// byte order.
+/// Comparison of bytes, and conversion between the machine's byte order and canonical bytes, which are little-endian.
+/// No other file tests the machine's byte order.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -16,8 +16,8 @@ inline uint64_t load_u64(const uint8_t* bytes) {
   return k_big_endian ? __builtin_bswap64(value) : value;
 }
 
-/// Whether the `count` bytes at `a` and `b` are equal. Not memcmp(): clang turns a comparison of its result with 0 into
-/// a call of bcmp(), which bare targets lack.
+/// Whether the `count` bytes at `a` equal those at `b`. The function does not use memcmp(), because clang turns a
+/// comparison of the result of memcmp() with 0 into a call of bcmp(), which bare targets lack.
 inline bool have_same_bytes(const void* a, const void* b, uint32_t count) {
   const auto* bytes_a = static_cast<const uint8_t*>(a);
   const auto* bytes_b = static_cast<const uint8_t*>(b);
@@ -37,7 +37,7 @@ bool have_same_bytes(const T& a, const T& b) {
   return have_same_bytes(&a, &b, sizeof(T));
 }
 
-/// Reverses each of the `count` words of `width` bytes (1, 2, 4 or 8) at `bytes`.
+/// Reverses the order of the bytes within each of the `count` words at `bytes`. `width`: bytes of a word, 1, 2, 4 or 8.
 inline void swap_words(uint8_t* bytes, uint32_t width, uint32_t count) {
   for (uint32_t word = 0; word < count; ++word, bytes += width) {
     for (uint32_t low = 0, high = width - 1; low < high; ++low, --high) {

@@ -4,7 +4,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The indices after and before `i` in the cycle 0, 1, 2, without a division.
+/// The indices after and before `i` in the cycle 0, 1, 2, 0, computed without a division.
 template <class Index>
 constexpr Index next_of_three(Index i) {
   return i == 2 ? Index{0} : static_cast<Index>(i + 1);

@@ -3,8 +3,9 @@
 
 #include "base/bytes.h"
 
-/// The digest's arithmetic. For a given word, a step is a bijection of the running value; for a given running value, it
-/// is a bijection of the word. Therefore a change of one word always changes the result (SPEC.md, "Digest").
+/// The arithmetic of the digest. A step adds a word to the running value. For a given word, it is a bijection of the
+/// running value; for a given running value, it is a bijection of the word. Therefore a change of a single word always
+/// changes the result (SPEC.md, "Digest").
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -26,7 +27,8 @@ DETENT_SHARED constexpr uint64_t digest_finish(uint64_t running) {
 /// Returns the exclusive or of the two halves of the digest.
 constexpr uint32_t digest_fold(uint64_t digest) { return static_cast<uint32_t>(digest ^ digest >> 32); }
 
-/// The digest of canonical bytes. The last word is padded with zeros; the byte count is part of the digest.
+/// Returns the digest of canonical bytes, in words of 8 bytes; the last word is padded with zeros. The byte count is
+/// part of the digest. `seed`: the running value to start from.
 uint64_t digest_bytes(const uint8_t* bytes, uint32_t byte_count, uint64_t seed);
 
 }  // namespace DETENT_NAMESPACE

@@ -1,8 +1,9 @@
 #pragma once
 #include "base/span.h"
 
-/// Binary max-heaps in a span: in-place sorting, and the k smallest elements of a stream. The functions use no extra
-/// memory and no recursion. `less` must be a strict total order, so that the result depends on the elements alone.
+/// Binary max-heaps in a span, for sorting in place and for finding the k smallest elements of a stream. The functions
+/// use no extra memory and no recursion. `less` must be a strict total order, so that the result depends on the
+/// elements alone.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -27,7 +28,7 @@ void heap_make(Span<T> items, const Less& less) {
   }
 }
 
-/// Sorts ascending.
+/// Sorts `items` in ascending order.
 template <class T, class Less>
 void heap_sort(Span<T> items, const Less& less) {
   heap_make(items, less);
@@ -38,8 +39,8 @@ void heap_sort(Span<T> items, const Less& less) {
   }
 }
 
-/// Collects the `storage.count` smallest of the added values. The result does not depend on the order of adding. Sort
-/// the result with heap_sort.
+/// Collects the `storage.count` smallest of the added values. The set of collected values does not depend on the order
+/// in which they were added, but their order in `storage` does: sort them with heap_sort().
 template <class T, class Less>
 struct SmallestOf {
   Span<T> storage;

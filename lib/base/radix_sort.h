@@ -4,9 +4,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Sorts ascending by the digit `digit_of(element)`, below 256. Elements with equal digits keep their order. `items` must
-/// not be empty. Uses 1 KB of stack. radix_sort() does not call this function for short spans, so a small world does not
-/// need this stack.
+/// Sorts `items` in ascending order of digit_of(element), which is below 256. Elements with equal digits keep their
+/// order. `spare` is work space of the same length. Range: `items` is not empty. Uses 1 KB of stack. radix_sort() does
+/// not call this function for short spans, so a small world does not need this stack.
 template <class T, class DigitOf>
 __attribute__((noinline)) void sort_by_digit(Span<T> items, Span<T> spare, const DigitOf& digit_of) {
   uint32_t place[256] = {};
@@ -22,8 +22,9 @@ __attribute__((noinline)) void sort_by_digit(Span<T> items, Span<T> spare, const
   for (uint32_t i = 0; i < items.count; ++i) items[i] = spare[i];
 }
 
-/// Sorts ascending by `digits` digits. Elements with equal digits keep their order. `digit_of(element, digit)` is below
-/// 256; digit 0 is the least significant. `spare` is work space of the same length. No recursion.
+/// Sorts `items` in ascending order of keys of `digits` digits. Elements with equal keys keep their order.
+/// digit_of(element, digit) is below 256; digit 0 is the least significant. `spare` is work space of the same length.
+/// The function is not recursive.
 template <class T, class DigitOf>
 void radix_sort(Span<T> items, Span<T> spare, const DigitOf& digit_of, int digits) {
   constexpr uint32_t k_few = 32;

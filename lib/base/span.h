@@ -6,7 +6,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Refers to `count` elements that begin at `data`. Does not own them.
+/// Refers to `count` elements that begin at `data`. The span does not own them.
 template <class T>
 struct Span {
   T* data = nullptr;

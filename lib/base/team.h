@@ -4,9 +4,9 @@
 #include "base/float_environment.h"
 #include "base/span.h"
 
-/// Shares the loops of a stage among threads that the caller lends (detent/tasks.h). One thread runs the stage. In the
-/// loops of the stage (share()), all threads take the elements chunk by chunk. So a stage needs only one call of
-/// Tasks::run.
+/// Shares the loops of a stage among threads that the caller lends (detent/tasks.h). One thread runs the code of the
+/// stage. In each loop that the stage passes to share(), all threads take the elements chunk by chunk. Therefore a
+/// stage with several loops needs only one call of Tasks::run.
 #ifndef DETENT_TASKS
 #if defined(__unix__) || defined(_WIN32) || defined(__APPLE__)
 #define DETENT_TASKS 1
@@ -18,13 +18,13 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Least numbers of elements that a thread takes at once.
+/// The least number of elements, by kind, that a thread takes at once from a shared loop: the argument `grain` below.
 inline constexpr uint32_t k_bodies_shared = 32, k_pairs_shared = 16, k_contacts_shared = 8, k_islands_shared = 8,
                           k_queries_shared = 1;
 
 #if DETENT_TASKS
 
-/// Number of elements below which a stage runs on one thread.
+/// The number of elements below which a stage runs on one thread.
 inline uint32_t least_of(const Tasks& tasks) { return tasks.least == 0 ? 96 : tasks.least; }
 
 class Team {
@@ -33,8 +33,8 @@ class Team {
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
 
-  /// Calls work() once, on one of the threads. The other threads help with the loops of work(). A thread that finds no
-  /// loop for a while leaves.
+  /// Calls work() once, on one of the threads. The other threads help with the shared loops of work(). A helping thread
+  /// that finds no loop for a while leaves.
   template <class Work>
   void run(const Work& work) {
     work_ = [](const void* of) { (*static_cast<const Work*>(of))(); };
@@ -44,12 +44,12 @@ class Team {
     enter();  // in case Tasks::run has made no call
   }
 
-  /// Calls body(first, last) for consecutive ranges of `count` elements, in any order, on any of the threads. A range
-  /// has at least `grain` elements, except the last. Returns after the last call. Range: called by the thread that runs
-  /// the stage, and not by a body.
+  /// Divides `count` elements into consecutive ranges, and calls body(first, last) for each range, in any order, on any
+  /// of the threads. Every range but the last has at least `grain` elements. Returns after the last call. Range: only
+  /// the thread that runs work() may call this function, and `body` must not call it.
   template <class Body>
   void each(uint32_t count, uint32_t grain, const Body& body) {
-    if (load(loop_) / k_chunk_codes == k_loops_max) {  // the number of the loop would wrap
+    if (load(loop_) / k_chunk_codes == k_loops_max) {  // the number of the next loop would wrap
       body(0, count);
       return;
     }
@@ -69,17 +69,17 @@ class Team {
     for (uint32_t pauses = 0; load(unfinished_) != 0; ++pauses) pause(pauses);
     if (probe != nullptr && probe->loop_ends != nullptr) probe->loop_ends(probe->context);
   }
-  /// Number of elements above which a loop is shared.
+  /// The number of elements up to which a loop is not shared.
   uint32_t few(uint32_t grain) const { return tasks_.least == 1 ? 0 : grain; }
-  /// The threads share the loops of an island with at least this many bodies or contacts.
+  /// The threads share the loops of an island that has at least this many bodies or contacts.
   uint32_t many() const { return tasks_.least == 1 ? 4 : least_of(tasks_); }
 
-  /// Adds to a number that several threads add to. Returns the number before.
+  /// Adds `value` to `sum`, to which other threads may add at the same time. Returns `sum` before the addition.
   static uint32_t take(uint32_t& sum, uint32_t value) { return __atomic_fetch_add(&sum, value, __ATOMIC_RELAXED); }
   static void add(uint32_t& sum, uint32_t value) {
     if (value != 0) take(sum, value);
   }
-  /// Calls work() while no other thread does.
+  /// Calls work(), and makes other threads that call this function wait until work() has returned.
   template <class Work>
   void alone(const Work& work) {
     for (uint32_t pauses = 0; __atomic_exchange_n(&locked_, 1u, __ATOMIC_ACQUIRE) != 0; ++pauses) pause(pauses);
@@ -91,7 +91,8 @@ class Team {
   static constexpr uint32_t k_waiting = 0, k_begun = 1, k_ended = 2;
   static constexpr uint32_t k_chunks_max = 64, k_chunk_codes = 128;
   static constexpr uint32_t k_loops_max = UINT32_MAX / k_chunk_codes - 1;
-  /// Number of pauses after which a thread asks the caller to let others run, and after which a helper leaves.
+  /// A waiting thread calls Tasks::wait from k_pauses pauses on. A helper that has found no loop for k_idle_pauses
+  /// pauses leaves.
   static constexpr uint32_t k_pauses = 2000, k_idle_pauses = 20000;
 
   static uint32_t load(const uint32_t& from) { return __atomic_load_n(&from, __ATOMIC_ACQUIRE); }
@@ -106,7 +107,7 @@ class Team {
 #endif
   }
 
-  /// The first thread runs the stage, the others help.
+  /// The first thread that enters runs the stage; the others help.
   void enter() {
     uint32_t none = k_waiting;
     if (__atomic_compare_exchange_n(&state_, &none, k_begun, false, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE)) {
@@ -131,8 +132,8 @@ class Team {
       pauses = 0;
     }
   }
-  /// Runs the chunks of a loop that no other thread has taken. Each thread begins at a place of its own, which is the
-  /// same in every loop, so that its cache keeps the data.
+  /// Runs the chunks of a loop that no other thread has taken. Each thread begins at a chunk of its own, which is the
+  /// same in every loop with this number of chunks, so that its cache keeps the data.
   void take_chunks(uint32_t loop, uint32_t thread) {
     const uint32_t chunks = loop % k_chunk_codes;
     const TaskProbe* const probe = tasks_.probe;
@@ -165,7 +166,8 @@ class Team {
   void (*work_)(const void* work) = nullptr;
   const void* of_work_ = nullptr;
   uint32_t state_ = k_waiting, locked_ = 0, helpers_ = 0;
-  // The present loop: its number times k_chunk_codes plus its number of chunks, and what it does.
+  // The present loop: its number times k_chunk_codes plus its number of chunks. Then the elements and the body of the
+  // loop.
   alignas(64) uint32_t loop_ = 0;
   uint32_t count_ = 0, grain_ = 1;
   void (*chunk_)(const void* body, uint32_t first, uint32_t last) = nullptr;
@@ -174,7 +176,8 @@ class Team {
   alignas(64) uint32_t taken_in_[k_chunks_max] = {};  ///< number of the loop in which each chunk was taken last
 };
 
-/// Calls work(team) on one of the caller's threads. `team` is null if the caller lends none.
+/// Calls work(team) on one of the caller's threads. If the caller lends no threads (Tasks::run, Tasks::workers), calls
+/// it on this thread with a null `team`.
 template <class Work>
 void with_team(const Tasks& tasks, const Work& work) {
   if (tasks.run == nullptr || tasks.workers < 2) {
@@ -193,8 +196,8 @@ void with_team(const Tasks& tasks, uint32_t elements, const Work& work) {
     work(static_cast<Team*>(nullptr));
 }
 
-/// Calls body(first, last) for ranges that together are [0, count): one range if `team` is null or if there are at most
-/// `grain` elements.
+/// Calls body(first, last) for ranges that together are [0, count), as Team::each() does. There is only one range, on
+/// this thread, if `team` is null or if there are at most `grain` elements.
 template <class Body>
 void share(Team* team, uint32_t count, uint32_t grain, const Body& body) {
   if (team != nullptr && count > team->few(grain))
@@ -202,7 +205,7 @@ void share(Team* team, uint32_t count, uint32_t grain, const Body& body) {
   else
     body(0, count);
 }
-/// Calls work() while no other thread of the team does.
+/// Calls work() while no other thread of the team is in a call of this function (Team::alone()).
 template <class Work>
 void alone(Team* team, const Work& work) {
   if (team != nullptr)
@@ -210,7 +213,7 @@ void alone(Team* team, const Work& work) {
   else
     work();
 }
-/// As share(). Returns the sum of the values that `body` returns.
+/// As share(), and returns the sum of the values that `body` returns.
 template <class Body>
 uint32_t share_sum(Team* team, uint32_t count, uint32_t grain, const Body& body) {
   if (team == nullptr || count <= team->few(grain)) return body(0, count);
@@ -246,7 +249,8 @@ inline uint32_t share_sum(Team*, uint32_t count, uint32_t, const Body& body) {
 
 #endif
 
-/// As share(), with the elements of a list. Returns the sum of what body(part) returns.
+/// As share_sum() and share() above, for the elements of the list `all`: calls body(part) with parts of the list
+/// instead of ranges of indices.
 template <class T, class Body>
 uint32_t share_sum(Team* team, Span<T> all, uint32_t grain, const Body& body) {
   return share_sum(team, all.count, grain, [&](uint32_t first, uint32_t last) {

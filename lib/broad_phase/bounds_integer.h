@@ -6,7 +6,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Converts a coordinate to an integer. The conversion is monotonic.
+/// Converts a coordinate to an integer, in units of 2^-k_coord_bits m. The conversion is monotonic.
 inline int64_t integer_from(Coord x) {
 #if defined(DETENT_F64)
   bool saturated = false;
@@ -16,7 +16,7 @@ inline int64_t integer_from(Coord x) {
 #endif
 }
 
-/// The result of integer_from() is in units of 2^-k_coord_bits m.
+/// Number of fraction bits of the result of integer_from().
 #if defined(DETENT_F64)
 inline constexpr int k_coord_bits = 20;
 #else

@@ -10,8 +10,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A grid along one axis. The size of a cell is a power of two; at most 2^bits cells cover all bodies with finite
-/// bounds.
+/// A grid along one axis. divide() makes the size of a cell a power of two, so that at most 2^bits cells cover all
+/// bodies with finite bounds.
 struct Grid {
   Coord Position::*axis = nullptr;
   int64_t from = INT64_MAX, to = INT64_MIN;
@@ -37,8 +37,9 @@ struct Grid {
 bool is_everywhere(const Bounds& bounds) { return bounds.lower.x == -k_coord_limit && bounds.upper.x == k_coord_limit; }
 bool is_nowhere(const Bounds& bounds) { return bounds.upper.x < bounds.lower.x; }
 
-/// Two coordinates of 15 bits are packed in one word, each with a guard bit above it. In the difference upper bound -
-/// lower bound, a guard bit is cleared if the upper bound is below the lower bound.
+/// Two coordinates of 15 bits are packed in one word, each with a guard bit above it. If the guard bits are set in a
+/// word of upper bounds, and a word of lower bounds is subtracted, a guard bit becomes 0 if the upper bound is below
+/// the lower bound.
 constexpr uint32_t k_across_bits = 15, k_across_guards = 0x80008000;
 
 uint32_t across(uint32_t first, uint32_t second) { return first << (k_across_bits + 1) | second; }
@@ -67,8 +68,8 @@ int64_t integer_length(Real length) {
 #endif
 }
 
-/// The depth of the bounds `box` below the surface of a half-space, in units of 2^-k_coord_bits m; 0 if the bounds are
-/// above the surface.
+/// The depth of the lowest corner of `box` below the surface of a half-space, in units of 2^-k_coord_bits m; 0 if the
+/// corner is above the surface.
 uint64_t depth_within(const BodyPose& half_space, const Bounds& box) {
   const Vec3<Unit> up = matrix_from(half_space.rotation).column[1];
   const Unit zero = 0.0;
@@ -125,7 +126,8 @@ void PairPool::consider(uint32_t a, uint32_t b) {
   if (takes_pair(*this, a, b)) add_pair(key_of_pair(a, b), *this);
 }
 
-/// A radix sort by the higher slot and then, stably, by the lower slot. Uses only as many digits as slot numbers have.
+/// A radix sort by the higher slot and then, stably, by the lower slot. Its digits are bytes; it uses only as many of
+/// them as slot numbers have.
 void PairPool::sort() {
   const int bytes = properties.count <= 256 ? 1 : properties.count <= 65536 ? 2 : 3;
   radix_sort(

@@ -11,9 +11,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The priority of pairs in a full pool: the pair whose bounds overlap deeper comes first; at equal depths, the pair
-/// with the lower key. The depth is the least overlap along a coordinate axis; for a half-space, it is the depth of the
-/// bounds below its surface. Unit: 2^-k_coord_bits m (bounds_integer.h).
+/// The order in which a full pool keeps pairs: the pair whose bounds overlap deeper comes first; of equally deep pairs,
+/// the one with the lower key. The depth is the least overlap along a coordinate axis; for a half-space, it is the
+/// depth of the bounds below its surface. Unit: 2^-k_coord_bits m (bounds_integer.h).
 struct DeeperPair {
   Span<const BodyPose> poses;
   Span<const BodyProperties> properties;
@@ -31,7 +31,7 @@ struct PairPool {
   Span<const Bounds> bounds;
   Span<uint64_t> spare;  ///< work space as large as the pool
   SmallestOf<uint64_t, DeeperPair> found;
-  Overflow* overflow = nullptr;  ///< receives the pairs that are not kept; may be null
+  Overflow* overflow = nullptr;  ///< receives events for the pairs that are not kept; may be null
 #if DETENT_TASKS
   Team* team = nullptr;  ///< the threads that find pairs; null: one thread
 #else
@@ -56,13 +56,14 @@ struct PairPool {
   Span<const uint64_t> pairs() const { return found.storage.first(found.count); }
   uint32_t dropped() const { return found.dropped; }
 
-  /// Whether at least one of the bodies is dynamic, their bounds overlap and the filter allows the pair.
+  /// Whether the pool takes a pair: at least one of the bodies is dynamic, their bounds overlap, and the filter allows
+  /// the pair.
   bool takes(uint32_t a, uint32_t b) const;
   void add(uint64_t key);
   /// Adds the pair if the pool takes it.
   void consider(uint32_t a, uint32_t b);
   void sort();
-  /// Prepares the pool for further pairs. Must be called between sort() and the next consider().
+  /// Prepares the pool for further pairs after sort(). Must be called before the next consider().
   void go_on();
 };
 
@@ -72,7 +73,8 @@ struct PairPool {
 void add_moving_pairs(Span<const uint32_t> moving, const RestingTree& resting, Span<BoundsKey> keys,
                       Span<BoundsKey> spare, PairPool& pool);
 
-/// The pairs that one thread finds. With several threads, they are added to the pool a few at a time.
+/// Receives the pairs that one thread finds. If several threads find pairs, it collects a few pairs before it adds them
+/// to the pool, because only one thread at a time may do so.
 class PairFinder {
  public:
   explicit PairFinder(PairPool& pool) : pool_(pool) {}

@@ -7,8 +7,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The overflow events of a step, in the caller's buffer, sorted and without duplicates. If there are more events than
-/// fit, the first ones in sort order are kept.
+/// The capacity events of a step (a pool was full), in the caller's buffer, sorted and without duplicates. If the
+/// buffer has no room for all events, it keeps the first ones in sort order.
 struct Overflow {
   Span<const BodyProperties> properties;
   Span<CapacityEvent> events;

@@ -9,12 +9,13 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The mask test of Filter and of QueryFilter: whether the category of each shares a bit with the mask of the other.
+/// The mask test of Filter and of QueryFilter: whether the category of each of the two shares a bit with the mask of
+/// the other.
 constexpr bool masks_meet(uint32_t category_a, uint32_t mask_a, uint32_t category_b, uint32_t mask_b) {
   return (category_a & mask_b) != 0 && (category_b & mask_a) != 0;
 }
 
-/// Whether the body can touch or sense no other body, whatever the filters of the others are.
+/// Whether the body's own filter keeps it from touching or sensing any other body.
 inline bool is_non_colliding(const BodyProperties& properties) {
   return properties.group <= 0 && (properties.category == 0 || properties.mask == 0);
 }
@@ -23,7 +24,8 @@ inline bool has_rule(const FilterRuleTable& table, uint32_t rule) {
   return rule == 0 || (rule <= table.count && table.rules[rule - 1] != nullptr);
 }
 
-/// Decides whether two bodies may touch. Sensors never touch. All code that finds pairs uses this test.
+/// Decides by filters, filter rules and joints whether two bodies may touch. Sensors never touch. All code that finds
+/// pairs uses this test.
 struct PairFilter {
   Span<const BodyProperties> properties;
   FilterRuleTable rules;

@@ -13,7 +13,7 @@ constexpr uint64_t pair_key(uint32_t low, uint32_t high) { return (uint64_t{low}
 constexpr uint32_t pair_low(uint64_t key) { return static_cast<uint32_t>(key >> 32); }
 constexpr uint32_t pair_high(uint64_t key) { return static_cast<uint32_t>(key); }
 
-/// The key of two slots in either order.
+/// The key of a pair whose slots are given in either order.
 constexpr uint64_t key_of_pair(uint32_t a, uint32_t b) { return a < b ? pair_key(a, b) : pair_key(b, a); }
 
 inline uint64_t key_of(const ContactState& contact) { return pair_key(contact.body_a, contact.body_b); }

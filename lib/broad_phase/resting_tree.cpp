@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The key of a body in the tree: 96 bits.
+/// The key of a body in the tree, 96 bits: the size and the cell of its bounds (`place`), then its slot.
 struct TreeKey {
   uint64_t place;
   uint32_t slot;
@@ -33,7 +33,7 @@ uint64_t spread(uint64_t value) {
   return (value | value << 2) & 0x1249249249249249;
 }
 
-/// The key of a body. Cell numbers repeat after 2^20 cells, which may cost time but changes no result.
+/// The key of a body. Along each axis, cell numbers repeat after 2^20 cells. This may cost time, but changes no result.
 TreeKey key_of(const Bounds& bounds, uint32_t slot) {
   uint64_t longest = 0, place = 0;
   int64_t centre[3];

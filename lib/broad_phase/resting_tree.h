@@ -11,20 +11,20 @@ inline namespace DETENT_NAMESPACE {
 /// the tree for nearby bodies. It changes the tree only for bodies that come to rest or start to move.
 ///
 /// The tree is a binary trie. The key of a body has three parts. The first part is the longest side of its bounds, as a
-/// power of 16, so that large bodies do not enlarge the tree nodes of small bodies. The second part is the cell of the
-/// centre, in Morton order; cells are about as large as the body. The third part is the slot. Therefore the shape of
-/// the tree depends only on the bodies in it, not on the order of insertion, and no path from the root is longer than
-/// k_depth_max. The tree is a cache, which snapshots do not store. The result of a query does not depend on the shape
-/// of the tree.
+/// power of 16, so that large bodies do not enlarge the tree nodes of small bodies. The second part is the grid cell of
+/// the centre, in Morton order; the cells are about as large as the body. The third part is the slot. Therefore the
+/// shape of the tree depends only on the bodies in it, not on the order of insertion, and no path from the root is
+/// longer than k_depth_max. The tree is a cache, which snapshots do not store. The result of a query does not depend on
+/// the shape of the tree.
 ///
-/// The traversal uses no recursion and no stack: it returns to the parent of a node by the parent link.
+/// The traversal uses no recursion and no stack: it returns from a node to its parent through the stored parent.
 /// Source: Morrison, "PATRICIA", 1968; Lauterbach and others, "Fast BVH Construction on GPUs", 2009 (Morton order).
 struct RestingTree {
   static constexpr uint32_t k_depth_max = 96;
 
   TreeRoot& root;
-  Span<TreeNode> nodes;       ///< one fewer than bodies
-  Span<uint32_t> parents;     ///< of the leaves, by slot
+  Span<TreeNode> nodes;       ///< inner nodes; for n bodies in the tree, n - 1 are in use
+  Span<uint32_t> parents;     ///< parent fields of the leaves, by slot
   Span<const Bounds> bounds;  ///< by slot; they must not change while the body is in the tree
 
   void make_empty() const;

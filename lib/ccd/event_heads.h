@@ -13,11 +13,11 @@ inline bool is_earlier(const ImpactPair& a, const ImpactPair& b) {
 }
 
 #if DETENT_TASKS
-/// The earliest event of each block of entries in `impacts`, in spare memory. After an event only the blocks whose
+/// The earliest event of each block of 16 entries in `impacts`, in spare memory. After an event only the blocks whose
 /// entries have changed are searched again.
 class EventHeads {
  public:
-  /// Takes memory for the blocks of this number of entries. If there is too little memory, is_made() is false.
+  /// Takes memory for the blocks of `entries` entries. If there is too little memory, is_made() is false afterwards.
   void make(uint32_t entries, SpareMemory& spare) {
     heads_ = spare.take<Head>((entries + k_block - 1) / k_block);
     for (Head& head : heads_) head.entry = k_stale;

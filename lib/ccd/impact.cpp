@@ -8,11 +8,11 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 #if DETENT_TASKS
-/// With fewer entries than this after the first search, all entries are visited to find each event.
+/// If the first search makes fewer entries than this, all entries are visited to find each event.
 constexpr uint32_t k_many_entries = 64;
 #endif
 
-/// The pair with the earliest event, ties by the lower key; null if there is none.
+/// The pair with the earliest event; of several, the one with the lowest key; null if no pair has an event.
 ImpactPair* next(ImpactStage& stage) {
 #if DETENT_TASKS
   if (stage.heads.is_made())
@@ -81,7 +81,7 @@ void go_on(ImpactStage& stage, ImpactPair& pair) {
 }
 
 #if DETENT_TASKS
-/// With fewer entries than this after the first search, groups cost more than they save.
+/// Up to this number of entries of the first search, groups cost more than they save.
 constexpr uint32_t k_entries_for_groups = 64;
 
 /// Processes all events, in groups if that is faster.

@@ -11,17 +11,17 @@
 /// Continuous collision: finds the times of impact of bodies whose sweeps collide, and resolves each impact at its
 /// time.
 ///
-/// The impacts of the whole world are processed in the order of their times, ties by the pair's slots. For each impact,
-/// both bodies move to the time of impact, an impulse separates them, and the rest of both sweeps is tested against all
-/// other bodies again. The impulse is computed twice. One impulse is computed from the velocities of the sweeps and
-/// changes the sweeps for the rest of the tick. The other is computed from the velocities in the bodies' state and
-/// changes these, so that an approach that the solver has already resolved is not resolved again. Each impulse acts on
-/// both bodies with opposite sign.
+/// The impacts of the whole world are processed in the order of their times. Impacts at the same time are processed in
+/// the order of the pairs' slots. For each impact, both bodies move to the time of impact, an impulse separates them,
+/// and the rest of both sweeps is tested against all other bodies again. The impulse is computed twice. One impulse is
+/// computed from the velocities of the sweeps, and changes the sweeps for the rest of the tick. The other impulse is
+/// computed from the velocities in the bodies' state, and changes those velocities. Therefore an approach that the
+/// solver has already resolved is not resolved again. Each impulse acts on both bodies with opposite sign.
 ///
-/// If a pair collides again at the same time, it stays in contact for the rest of the tick. Its shrunken cores are then
-/// tested, at increasing shrink depths (impact_pair.h), so that the bodies can slide on. A body stops until the end of
-/// the tick if it reaches k_impacts_max impacts, or if the list has no room for its next impact. It then stays at its
-/// last pose that is known to be free of collisions. The time that it loses is reported.
+/// If the bodies of a pair still touch after their impact, the pair is in contact for the rest of the tick. Its
+/// shrunken cores are then tested, at increasing shrink depths (impact_pair.h), so that the bodies can slide on. A body
+/// stops until the end of the tick if it reaches k_impacts_max impacts, or if the list has no room for its next impact.
+/// It then stays at its last pose that is known to be free of collisions. The time that it loses is reported.
 ///
 /// The work of a tick has a budget (k_impact_work_times). Once the budget is spent, pairs are tested with cores that
 /// are shrunk by an eighth of the smaller body's smallest diameter. Shallower collisions are left to the contacts of
@@ -29,7 +29,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-inline constexpr uint32_t k_impacts_max = 32;  ///< per body and tick
+inline constexpr uint32_t k_impacts_max = 32;  ///< limit of the impacts of a body in a tick
 /// `k_impacts_max_spent`: limit of impacts per body and tick once the budget of work is spent. The unit of work is one
 /// computed time of impact, or one attempt to resolve an impact. The budget is
 ///
@@ -51,12 +51,12 @@ struct ImpactUse {
 };
 
 #if DETENT_TASKS
-/// In which order impacts are processed. The results are the same.
+/// In which order impacts are processed. The order does not change the results.
 enum class ImpactOrder : uint8_t {
   automatic,     ///< `optimistic` if there are threads and enough impacts, else `global`
   global,        ///< in the order of their times over the whole world
-  conservative,  ///< in groups connected by the first impacts and by ImpactPairs::pairs (time_warp.cpp)
-  optimistic,    ///< in groups that are connected by the first impacts
+  conservative,  ///< in groups of bodies that first impacts or ImpactPairs::pairs connect (time_warp.cpp)
+  optimistic,    ///< in groups of bodies that first impacts connect
 };
 
 /// What Time Warp did (time_warp.cpp).
@@ -69,11 +69,12 @@ struct WarpCount {
 };
 #endif
 
-/// For tests: records the sweeps, and can switch off the filter that skips pairs which cannot collide. For rollback:
+/// In tests, records the sweeps, and can switch off the filter that skips pairs which cannot collide. In a rollback,
 /// records the region that each body reaches.
 struct ImpactProbe {
   bool filters = true;
-  /// The segments of all moving bodies, in the order in which they begin; only as many as fit.
+  /// Receives the segments of all moving bodies, in the order in which they begin. Segments that do not fit are left
+  /// out.
   Span<SweepSegment> segments;
   uint32_t segment_count = 0;  ///< includes segments that did not fit
 #if DETENT_TASKS
@@ -81,14 +82,14 @@ struct ImpactProbe {
   WarpCount warp = {};
 #endif
 #if DETENT_SPARSE
-  Span<Bounds> reach = {};  ///< by slot: the bounds of all sweeps of the body are added; may be empty
+  Span<Bounds> reach = {};  ///< by slot: receives the bounds of all sweeps of the body; may be empty
   ImpactUse use = {};
 #endif
 };
 
 struct ImpactReport {
   uint32_t impacts = 0;         ///< impacts that changed a body's motion
-  uint32_t undecided = 0;       ///< times of impact that were found only in part, or that could not be computed
+  uint32_t undecided = 0;       ///< searches for a time of impact that stopped early, or that were impossible
   uint32_t overlaps_left = 0;   ///< pairs that overlap too deeply to be tested
   uint32_t bodies_stopped = 0;  ///< bodies stopped until the end of the tick
   uint32_t pairs_dropped = 0;   ///< impacts that had no room in `impacts`; their bodies are stopped
@@ -109,7 +110,8 @@ struct SweepListener {
   void* context = nullptr;
 };
 
-/// The bodies of the stage. A body's pose is its pose at the time `from` of its sweep; the two are updated together.
+/// The bodies of the stage. The pose of a body is that at the time `from` of its sweep. Pose and sweep are updated
+/// together.
 struct ImpactBodies {
   Span<const BodyProperties> properties;
   Span<BodyPose> poses;
@@ -127,7 +129,7 @@ struct ImpactBodies {
   FilterRuleTable filter_rules = {};
   SweepListener listener = {};
 #if DETENT_TASKS
-  Span<uint64_t> spare = {};  ///< work space; less of it costs time and changes no result
+  Span<uint64_t> spare = {};  ///< work space; with less of it, the stage takes longer
 #endif
 };
 

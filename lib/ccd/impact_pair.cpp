@@ -99,7 +99,7 @@ bool is_parting(const SweptBody& a, const SweptBody& b, Fraction time, const Tim
   const Vec3<Real> arm_b = impact.point - offset;
   const Real swing_a = dot(cross(impact.point, impact.normal), a.sweep.rotation_vector);
   const Real swing_b = dot(cross(arm_b, impact.normal), b.sweep.rotation_vector);
-  // An approach this slow does not pass through the next shrink depth in this tick.
+  // In a tick, an approach this slow closes less than the step to the next shrink depth.
   const Real slow = scale_by_power(min(shape_extent(a.properties), shape_extent(b.properties)), -12);
   return dot(relative, impact.normal) + (swing_b - swing_a) >= -slow;
 }

@@ -13,42 +13,44 @@ inline namespace DETENT_NAMESPACE {
 
 /// A pair is tested with shrunken cores: both shapes are made smaller by a shrink depth, m. The first depth is 0 (the
 /// surfaces). A pair that has collided in this tick is tested at the smallest depth at which it is separate again. A
-/// pair that is in contact at the start of the tick is tested at contact_shrink_depth() or deeper. So a resting or
-/// sliding pair is not stopped, and the bodies still cannot pass through each other. `extent` is the smaller body's
+/// pair that is in contact at the start of the tick is tested at contact_shrink_depth() or deeper. Therefore a resting
+/// or sliding pair is not stopped, but its bodies cannot pass through each other. `extent` is the smaller body's
 /// smallest diameter.
 ///
-/// Returns the shrink depth after `shrink_depth`. The first one is 1/1024 of the extent. Up to 1/32 of the extent each
-/// is twice the one before; then each is larger by 1/32 of the extent.
+/// next_shrink_depth() returns the shrink depth that follows `shrink_depth`. The depth after 0 is 1/1024 of the extent.
+/// Up to 1/32 of the extent, each depth is twice the previous one. Beyond it, each depth is the previous one plus 1/32
+/// of the extent.
 Real next_shrink_depth(Real extent, Real shrink_depth);
 /// The shrink depth, m, for a pair that is in contact, `depth` deep, at the start of the tick: 1/8 of the extent, or
-/// half of `depth` plus 1/64 of the extent if that is more. In the second case, the pair cannot sink deeper by more
-/// than 1/32 of the extent.
+/// half of `depth` plus 1/64 of the extent, whichever is more. Both bodies are shrunk by it, so in the second case the
+/// cores touch when the pair has sunk 1/32 of the extent deeper.
 Real contact_shrink_depth(Real extent, Real depth);
-/// The largest shrink depth, m: extent / 2. Bodies that overlap more deeply are not tested.
+/// The largest shrink depth, m: extent / 2. A pair whose cores still overlap at this depth is not tested.
 Real last_shrink_depth(Real extent);
 
 /// A body and its sweep, for the tests of this stage.
 struct SweptBody {
   const BodyProperties& properties;
-  const BodyPose& pose;  ///< at sweep.from
+  const BodyPose& pose;  ///< at the time sweep.from
   const BodySweep& sweep;
 };
 
-/// The body's pose at `time`, and the part of the sweep after `time`.
+/// pose_at() returns the body's pose at `time`, rest_of() the part of the sweep after `time`.
 BodyPose pose_at(const SweptBody& body, Fraction time);
 Sweep rest_of(const BodySweep& sweep, Fraction time);
 
-/// False if an impact has no normal, which is so for cores that overlap.
+/// True if `normal` is not zero. An impact of cores that overlap has no normal: its `normal` is zero.
 inline bool is_direction(const Vec3<Unit>& normal) { return !(normal == Vec3<Unit>{Unit(0.0), Unit(0.0), Unit(0.0)}); }
 
 /// From the position of A to that of B, m, world axes.
 inline Vec3<Real> offset_of(const BodyPose& a, const BodyPose& b) { return real_difference(b.position, a.position); }
 
-/// Takes an impact that was found at `time` itself. True if the bodies do not approach at its point, or approach by at
-/// most 1/4096 of the extent per tick. Range: the impact has a normal.
+/// For an impact that was found at `time` itself, returns whether the bodies part at the point of the impact: they do
+/// not approach there along the normal, or approach by at most 1/4096 of the extent per tick. Range: the impact has a
+/// normal.
 bool is_parting(const SweptBody& a, const SweptBody& b, Fraction time, const TimeOfImpact& impact);
 
-/// The pose at `time` and the sweep after it, as time_of_impact() takes them.
+/// The body's pose at `time` and the rest of its sweep after `time`, in the form that time_of_impact() takes.
 Motion motion_from(const SweptBody& body, Fraction time);
 
 /// An upper bound, m, of how far a rotation about the centre moves any point of the body's surface. For a rotating
@@ -81,7 +83,9 @@ struct ShrunkenCores {
 struct Meeting {
   TimeOfImpact impact = {};
   uint32_t tests = 0;  ///< times of impact computed
-  Real depth = 0.0;    ///< the largest shrink depth tested after the first, m; 0: only the first; if `left`: the last
+  /// The largest shrink depth, m, that was tested after the first one; 0 if no other was tested; last_shrink_depth() if
+  /// `left`.
+  Real depth = 0.0;
   bool left = false;   ///< some parts overlap so deeply that they are not tested
   bool stuck = false;  ///< the pair collided in this tick and does not separate: it would pass through
 
@@ -89,7 +93,8 @@ struct Meeting {
     impact.outcome = ToiOutcome::clear;
     impact.time = k_whole_step;
   }
-  /// Keeps the earlier impact. The time of `found` is a fraction of the rest of the tick.
+  /// Replaces `impact` by `found` if `found` is an earlier impact. The time of `found` is a fraction of the rest of the
+  /// tick.
   void take(const TimeOfImpact& found) {
     if (found.outcome == ToiOutcome::clear) return;
     if (impact.outcome == ToiOutcome::clear || found.time < impact.time) impact = found;
@@ -108,7 +113,7 @@ struct FindAtDepth {
 bool climb_with(const SweptBody& a, const SweptBody& b, Fraction time, const ShrunkenCores& cores,
                 const FindAtDepth& find, Meeting& meeting);
 
-/// As climb_with(). `find`: a function object.
+/// Does the same as climb_with(). `find`: a function object.
 template <class Find>
 bool climb(const SweptBody& a, const SweptBody& b, Fraction time, const ShrunkenCores& cores, const Find& find,
            Meeting& meeting) {

@@ -10,7 +10,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int k_sweeps_max = 64;
-constexpr int k_last_sweeps = 8;  ///< over the normal rows only, without friction
+constexpr int k_last_sweeps = 8;  ///< number of sweeps in a round, over the normal rows only
 constexpr int k_rounds = 2;
 
 Vec3<Real> scaled(const Vec3<Real>& v, Scaled factor) {
@@ -185,7 +185,7 @@ uint32_t add_to_sweep(const BodyProperties& properties, const Quat& rotation, co
   const auto angle = [&](Real value) { return angle_of(value * tick_time, properties.size_exponent, turns_clamped); };
   sweep.displacement += (after.linear_velocity - before.linear_velocity) * tick_time;
   sweep.rotation_vector += {angle(angular_velocity.x), angle(angular_velocity.y), angle(angular_velocity.z)};
-  // The limits of the state; time_of_impact() accepts twice as much.
+  // The limits of a sweep in the state, m and rad. time_of_impact() accepts values twice as large.
   constexpr Real k_sweep_rotation_max = 32768.0, k_sweep_displacement_max = 8192.0;
   return clamp_vector(sweep.displacement, k_sweep_displacement_max) +
          clamp_vector(sweep.rotation_vector, k_sweep_rotation_max) + (turns_clamped ? 1 : 0);
@@ -210,8 +210,9 @@ bool resolve_impact(const ContactWork& contact, uint32_t count, Real least, Real
     impact.solve_friction();
     if (impact.largest <= enough) break;
   }
-  // The friction row was solved last, so a slow approach may remain: sweep over the normals again. Then apply the
-  // impulses to the bodies. A second round corrects the residual that the rounding of the bodies' state leaves.
+  // The friction row was solved last, so a slow approach may remain along the normals: sweep over the normal rows
+  // again. Then apply the impulses to the bodies. A second round corrects the residual that the rounding of the bodies'
+  // state leaves.
   for (int round = 0; round < k_rounds; ++round) {
     for (int sweep = 0; sweep < k_last_sweeps; ++sweep) {
       for (uint32_t i = 0; i < count; ++i) impact.push(i);

@@ -36,7 +36,7 @@ uint32_t add_to_sweep(const BodyProperties& properties, const Quat& rotation, co
 /// else 0.
 uint32_t clamp_angular_velocity(const BodyProperties& properties, const Quat& rotation, BodyMotion& motion);
 
-/// A body of an impact.
+/// One of the two bodies of an impact. resolve_impact() changes `motion`.
 struct ImpactBody {
   const BodyProperties& properties;
   const Quat& rotation;

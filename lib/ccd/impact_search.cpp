@@ -11,12 +11,12 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// For a pair that was found touching: the time to its next test is 2^k_test_power of a tick, and doubles each time, up
-/// to half a tick. There are at most k_tests_max such tests.
+/// A pair that was found touching is tested again after 2^k_test_power of a tick. This time doubles at each test of the
+/// pair, up to half a tick. A pair has at most k_tests_max such tests in a tick.
 constexpr int k_test_power = -10;
 constexpr uint32_t k_tests_max = 16;
 
-/// The contacts of a pair at the start of a list.
+/// The contacts of the pair `key` that stand at the start of the list `from`.
 Span<const ContactWork> pair_contacts(Span<const ContactWork> from, uint64_t key) {
   uint32_t count = 0;
   while (count < from.count && key_of(from[count].state) == key) ++count;
@@ -43,9 +43,9 @@ bool is_curved(const ImpactStage& stage, uint32_t slot) {
   return round_radius(stage.bodies.properties[slot]) > Unit(0.0);
 }
 
-/// False for pairs that are disabled by filters or joints, and for pairs within one island of joints. For a jointed
-/// body, also false with a half-space. Only contacts keep such a body out of the half-space, because stopping a single
-/// body would tear it from its joints.
+/// False for pairs that are disabled by filters or joints, and for pairs within one island of joints. Also false for a
+/// jointed body and a half-space. Only contacts keep a jointed body out of a half-space, because an impact would stop
+/// that body alone and tear it from its joints.
 bool may_collide(const ImpactStage& stage, uint32_t a, uint32_t b) {
   if (!PairFilter{stage.bodies.properties, stage.bodies.filter_rules, stage.known.disabled_pairs}.allows(a, b))
     return false;
@@ -100,7 +100,7 @@ ImpactPair* find_impact(const ImpactStage& stage, uint64_t key) {
 /// A lower bound, m, of the distance that a pair without contact had at the start of the tick. The contact points of a
 /// pair in `known.pairs` were searched up to its speculative distance. The bounds of any other pair were disjoint, and
 /// bounds include the contact margin. The result is 0, because nothing is known, if pairs or contacts were dropped, or
-/// if each of the two bodies rested, or may be near a body with which it has no contact (k_has_near).
+/// if each of the two bodies rested, or may be near a body with which it has no contact (k_mark_near).
 Real distance_without_contact(const ImpactStage& stage, uint64_t key) {
   const uint32_t low = pair_low(key), high = pair_high(key);
   const BodySweep &a = stage.sweep_of(low), &b = stage.sweep_of(high);
@@ -140,14 +140,15 @@ Real free_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const Contac
     return bounces && rebounds && stage.is_pushed(key) ? next_shrink_depth(extent, k_zero) : k_zero;
   }
   const Real shrink_depth = contact_shrink_depth(extent, -least);
-  // Adds the shrink depth of only one body, because the contact points need not show the whole depth of the overlap.
+  // Adds the shrink depth of only one body, although both are shrunk, because the contact points need not show the
+  // whole depth of the overlap.
   clearance = (round ? min(least, k_zero) : least) + shrink_depth;
   return shrink_depth;
 }
 
-/// Returns the first shrink depth, m, of a pair with these contacts; there may be none. `clearance` becomes a
-/// lower bound, m, of the distance of the cores at that depth. For a jointed body the depth is larger: only those
-/// collisions count in which the body would otherwise pass through.
+/// Returns the first shrink depth, m, of a pair with these `contacts`, which may be empty. `clearance` becomes a lower
+/// bound, m, of the distance of the cores at that depth. For a jointed body the depth is at least 3/8 of the extent:
+/// only those collisions count in which the body would otherwise pass through.
 Real first_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Real& clearance) {
   const Real shrink_depth = free_shrink_depth(stage, key, contacts, clearance);
   if (!jointed(stage, pair_low(key)) && !jointed(stage, pair_high(key))) return shrink_depth;
@@ -157,7 +158,8 @@ Real first_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const Conta
   return held;
 }
 
-/// The time of the next test of a pair that is found touching, after `tests` such tests in the tick; 1 for never.
+/// The time of the next test of a pair that is found touching at `time`, after `tests` such tests in the tick. Returns
+/// 1 if the pair is not tested again.
 Fraction next_test_after(Fraction time, uint32_t tests) {
   if (tests >= k_tests_max) return k_whole_step;
   const uint32_t power = tests < 9 ? tests : 9;
@@ -165,16 +167,17 @@ Fraction next_test_after(Fraction time, uint32_t tests) {
   return after < k_whole_step.raw - time.raw ? Fraction::from_raw(time.raw + after) : k_whole_step;
 }
 
-/// Whether a pair that was found touching is tested again later in the tick: the cores that separate it are much
-/// smaller than the shapes, or rotation may bring it together again. Otherwise it can overlap by at most 1/16 of the
-/// extent at the end of the tick, mostly far less. `depth`: Meeting::depth.
+/// Whether a pair that was found touching is tested again later in the tick. It is if its cores were separate only at a
+/// shrink depth of more than 1/32 of the extent, or if rotation may bring the bodies together again. A pair that is not
+/// tested again can overlap by at most 1/16 of the extent at the end of the tick, mostly far less. `depth`:
+/// Meeting::depth.
 bool must_be_tested_again(const ImpactStage& stage, uint64_t key, Real depth) {
   if (depth == k_zero) return false;
   return max(scale_by_power(depth, -2), stage.bend_of(key)) > scale_by_power(stage.extent_of(key), -7);
 }
 
-/// A direction that may separate a pair: the normal of its contact. Returns zero if it has no contact. Also returns
-/// zero if the pair has an entry in `impacts`, because such a pair mostly touches.
+/// A direction that may separate a pair: the normal of its first contact. Returns zero if the pair has no contact, or
+/// if it has an entry in `impacts`, because a pair with an entry mostly touches.
 Vec3<Unit> known_axis(const ImpactStage& stage, uint64_t key, const ImpactPair* entry) {
   if (entry != nullptr) return {};
   const Span<const ContactWork> contacts = find_contacts(stage.known.contacts, key);
@@ -184,7 +187,7 @@ Vec3<Unit> known_axis(const ImpactStage& stage, uint64_t key, const ImpactPair* 
 /// The motion of a body from the start of the tick to its end: the motion so far, and the rest of its sweep.
 struct TickMotion {
   Vec3<Real> until;            ///< displacement from the start of the tick to the present time, m
-  Vec3<Real> displacement;     ///< from the start of the tick to its end, m
+  Vec3<Real> displacement;     ///< displacement from the start of the tick to its end, m
   Vec3<Real> rotation_vector;  ///< rotation from the start of the tick to its end, times 2^size_exponent, m
   Real swing;                  ///< upper bound of the motion of surface points by rotation, m
 };
@@ -220,7 +223,7 @@ bool are_kept_apart(const ImpactStage& stage, uint64_t key, Span<const ContactWo
   for (const ContactWork& contact : contacts)
     least_points = contact.state.point_count < least_points ? contact.state.point_count : least_points;
   if (closing > scale_by_power(extent, least_points < 3 ? -3 : -2)) return false;
-  // Parts without contact can collide only if the pair closes by this distance.
+  // Parts without contact can collide only if the pair closes by the distance that they had at the start of the tick.
   if (has_parts(stage.bodies.properties[pair_low(key)], stage.bodies.properties[pair_high(key)]) &&
       !(closing < distance_without_contact(stage, key)))
     return false;
@@ -238,8 +241,8 @@ bool are_kept_apart(const ImpactStage& stage, uint64_t key, Span<const ContactWo
 bool is_safe(ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Fraction time, Real clearance,
              const ImpactPair* entry) {
   const TickMotion a = motion_in_tick(stage, pair_low(key), time), b = motion_in_tick(stage, pair_high(key), time);
-  // The relative displacement changes linearly from now to the end of the tick, so it is greatest at one of these
-  // times.
+  // The relative displacement changes linearly from now to the end of the tick, so its length is greatest at one of
+  // these two times.
   const Real closing = max(length(b.until - a.until), length(b.displacement - a.displacement)) + a.swing + b.swing;
   if (stage.filters() && closing < clearance) {
     ++stage.report.skipped;
@@ -262,8 +265,8 @@ void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> con
   Real clearance = k_zero;
   const Real shrink_depth = first_shrink_depth(stage, key, contacts, clearance);
   const Fraction start = 0.0;
-  // The sum of both bounds is cheap to compute, and mostly sufficient. The bounds are valid because no body was hit
-  // yet.
+  // The sum of the bounds of both motions is cheap to compute, and mostly sufficient. The bounds are valid because no
+  // body has been hit yet.
   const auto bound = [&](uint32_t slot) {
     return is_at_rest(stage.sweep_of(slot)) ? k_zero : stage.path_of(slot).bound;
   };

@@ -11,8 +11,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int k_rounds_max = 64;  ///< rounds of propagating an impulse
-constexpr int k_free_rounds = 8;  ///< of these, the first ones, in which no body counts as held
+constexpr int k_rounds_max = 64;  ///< limit of the rounds that propagate an impulse
+constexpr int k_free_rounds = 8;  ///< number of the first rounds, in which hold_lighter() is not called
 
 /// For a pair with several contacts, takes the contact whose normal is nearest to the normal of the impact. If the
 /// impact has no normal, takes the deepest contact.
@@ -139,7 +139,8 @@ Real parting_speed(const ImpactStage& stage, const ImpactPair& pair, const Conta
   return max(max(half_in_a_tick, scale_by_power(approach, power)), bend_speed(stage, pair));
 }
 
-/// One of the bodies that resolve_at() separates: first its motion along the sweep, then the one in its state.
+/// One of the bodies that resolve_at() separates. Its motion along the sweep is changed first, then the motion in its
+/// state.
 class ImpactedBody {
  public:
   DETENT_SHARED ImpactedBody(ImpactStage& stage, uint32_t slot, const BodyPose& pose)
@@ -171,7 +172,8 @@ class ImpactedBody {
     stage_.report.clamped +=
         add_to_sweep(properties_, pose_.rotation, before_, motion_, stage_.settings.tick_time, sweep);
   }
-  /// Goes on to the motion in the state, as it is at `time`.
+  /// Continues with the motion in the body's state. Subtracts the velocity that gravity adds after `time`; set_state()
+  /// adds it again.
   DETENT_SHARED void read_state(Fraction time) {
     fall_ = fall_after(stage_, slot_, time);
     motion_ = stage_.motion_of(slot_);
@@ -190,16 +192,16 @@ class ImpactedBody {
   const uint32_t slot_;
   const BodyPose& pose_;
   const BodyProperties& properties_;
-  const BodyMotion before_;  ///< along the sweep
+  const BodyMotion before_;  ///< motion along the sweep before the impact
   BodyMotion motion_;
   const WorldInverseInertia inverse_inertia_;
   const Vec3<Real> angular_velocity_;
-  Vec3<Real> fall_ = k_zero_vector;  ///< what gravity adds after the impact, m/s
+  Vec3<Real> fall_ = k_zero_vector;  ///< velocity that gravity adds after the impact, m/s
 };
 
-/// If an impact at `time` has stopped the lighter one of two dynamic bodies at a fixed body, replaces it by that body,
-/// of several by the one with the lowest slot. So the heavier body is stopped as if the lighter one were a part of the
-/// fixed body, which takes the impulse.
+/// If the lighter one of two dynamic bodies also had an impact with a fixed body at `time`, replaces the lighter body
+/// in `slots` by the fixed body; of several, by the one with the lowest slot. The fixed body then takes the impulse,
+/// and the heavier body is stopped as if the lighter one were a part of the fixed body.
 void hold_lighter(const ImpactStage& stage, Fraction time, uint32_t (&slots)[2]) {
   const Span<const BodyProperties> properties = stage.bodies.properties;
   const uint32_t which = less(properties[slots[0]].mass, properties[slots[1]].mass) ? 0 : 1;
@@ -249,7 +251,8 @@ bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geo
   if (again) return true;
   stage.first_approach = approach;
   ++stage.report.impacts;
-  // A body stops at k_impacts_max. A kinematic body then hits it at most once at each shrink depth.
+  // `impacts` does not overflow: a body stops after k_impacts_max impacts, and a kinematic body then hits the stopped
+  // body at most once at each shrink depth.
   static_assert(2 * k_impacts_max <= UINT8_MAX);
   ++pair.impacts;
   stage.add_hit(

@@ -17,17 +17,20 @@ inline namespace DETENT_NAMESPACE {
 // ImpactPair::next: the next event of a pair.
 inline constexpr uint8_t k_next_none = 0;
 inline constexpr uint8_t k_next_impact = 1;
-inline constexpr uint8_t k_next_undecided = 2;  ///< the pair is clear up to ImpactPair::time
-/// The pair is tested again; if it has separated, at a smaller shrink depth.
+/// The search for an impact stopped early: the bodies do not collide before ImpactPair::time.
+inline constexpr uint8_t k_next_undecided = 2;
+/// The pair is tested again at ImpactPair::time, from the smallest shrink depth on, because it may have separated.
 inline constexpr uint8_t k_next_test = 3;
 
 // Marks of a body's sweep, in addition to k_mark_jointed.
 inline constexpr uint32_t k_mark_stopped = 1;      ///< the body stays where it is until the tick ends
 inline constexpr uint32_t k_mark_changed = 2;      ///< the new sweep has not been tested yet
 inline constexpr uint32_t k_mark_left_bounds = 4;  ///< the sweep leaves the bounds that the pairs were found with
-inline constexpr uint32_t k_mark_hit = 8;          ///< the body was hit: its angular momentum follows its sweep
-inline constexpr uint32_t k_mark_slept = 16;       ///< the body was asleep when the tick began
-inline constexpr uint32_t k_mark_moved = 32;       ///< the body was active when the tick began: its pairs were searched
+/// The body was moved to an impact: its angular momentum belongs to its current rotation, not to that at the tick's
+/// end.
+inline constexpr uint32_t k_mark_hit = 8;
+inline constexpr uint32_t k_mark_slept = 16;  ///< the body was asleep when the tick began
+inline constexpr uint32_t k_mark_moved = 32;  ///< the body was active when the tick began: its pairs were searched
 inline constexpr uint32_t k_mark_near = BodySweep::k_mark_near;
 static_assert(k_mark_moved < k_mark_near && k_mark_near < k_mark_jointed);
 
@@ -40,7 +43,7 @@ inline constexpr uint32_t ImpactReport::*k_impact_numbers[] = {
 /// The entries in `impacts` at the start of the tick, while several threads make them.
 struct FoundPairs {
   Span<ImpactPair> pairs;
-  uint32_t count = 0;  ///< if it exceeds the room, the pairs must be searched in order
+  uint32_t count = 0;  ///< if it exceeds pairs.count, one thread must test all pairs in order
 
   ImpactPair* take() {
     const uint32_t place = Team::take(count, 1);
@@ -60,7 +63,7 @@ struct ImpactStage {
   Span<ImpactHit> hits;
   ImpactProbe* probe;
   Scaled tick_rate;
-  uint32_t work_left = UINT32_MAX;  ///< see k_impact_work_times; set by find_first()
+  uint32_t work_left = UINT32_MAX;  ///< rest of the budget of work (k_impact_work_times); set by find_first()
   uint32_t impact_count = 0;
   uint32_t changed_count = 0;
   uint32_t changed_first = 0;  ///< no body with a lower slot has k_mark_changed
@@ -74,7 +77,7 @@ struct ImpactStage {
   WarpRun* warp = nullptr;      ///< not null: this is a group of Time Warp, which sees its own copies of bodies
 #endif
 
-  // The bodies at the present point of the tick.
+  // The data of a body at the present point of the tick. In a group of Time Warp, they are those of the group's copy.
   BodyPose& pose_of(uint32_t slot) const { return own_of(slot) ? own_of(slot)->pose : bodies.poses[slot]; }
   BodyMotion& motion_of(uint32_t slot) const { return own_of(slot) ? own_of(slot)->motion : bodies.motions[slot]; }
   BodySweep& sweep_of(uint32_t slot) const { return own_of(slot) ? own_of(slot)->sweep : bodies.sweeps[slot]; }
@@ -107,7 +110,8 @@ struct ImpactStage {
   /// Subtracts `count` times of impact, or attempts to resolve an impact, from the work that is left.
   void take_work(uint32_t count) { work_left -= count < work_left ? count : work_left; }
   bool is_spent() const { return work_left == 0; }
-  /// Visits the entries in `impacts` of a dynamic body: its pairs with a coming impact, and those that have had one.
+  /// Visits the entries of a dynamic body in `impacts`: pairs of the body that have a coming event, or had one in this
+  /// tick.
   template <class Visit>
   void for_each_impact(uint32_t slot, const Visit& visit) const {
     if (impact_count == 0 || !may_have_entries(slot)) return;
@@ -131,13 +135,14 @@ struct ImpactStage {
 #if DETENT_TASKS
   // impact.cpp
 
-  /// Processes all events in the order of their times, ties by the lower key.
+  /// Processes all events in the order of their times, and events at the same time in the order of their keys.
   void process_events();
 #endif
 
   // impact_sweeps.cpp
 
-  /// Computes the bounds of the sweeps, and marks the sweeps that leave the bounds that the pairs were found with.
+  /// Computes the bounds of all sweeps. Sets k_mark_left_bounds for a sweep that leaves the bounds with which the
+  /// body's pairs were found.
   void start_sweeps();
   void start_sweep(uint32_t slot);
   /// Adds the body to the moving bodies and removes it from the tree of resting ones.
@@ -190,15 +195,15 @@ struct ImpactStage {
   /// unchanged, if the bodies collide at a seam and the shrink depth of the pair was not increased yet.
   bool resolve(ImpactPair& pair, bool undecided, const BodyPose& pose_a, const BodyPose& pose_b);
   /// Propagates the impulse of the pair `first` to the pairs that share a body with it and have collided in this tick,
-  /// and back, until no pair approaches or the limit of rounds is reached. Without this, a body between two others
-  /// would be hit back and forth without end. A round processes the other pairs in the order of their keys, then
-  /// `first`.
+  /// and from them back to `first`, until no pair approaches or the limit of rounds is reached. Without this, a body
+  /// between two others would be hit back and forth without end. A round processes the other pairs in the order of
+  /// their keys, then `first`.
   void pass_on(ImpactPair& first, Fraction time);
 };
 
 #if DETENT_TASKS
-/// As ImpactStage::process_events(), in groups. Returns false, and changes no body, if the events must be processed in
-/// the global order.
+/// Processes all events in groups, with the result of ImpactStage::process_events(). Returns false, and changes no
+/// body, if the events must be processed in the global order.
 bool process_in_groups(ImpactStage& stage, ImpactOrder order, WarpCount& count);
 #endif
 

@@ -13,7 +13,7 @@ bool holds(const Bounds& outer, const Bounds& inner) {
          inner.upper.y <= outer.upper.y && outer.lower.z <= inner.lower.z && inner.upper.z <= outer.upper.z;
 }
 
-/// Bounds of a body over a sweep. Their margin is smaller than that of the bounds that the pairs were found with.
+/// The bounds of a body over a sweep. Their margin is smaller than that of the bounds with which the pairs were found.
 Bounds bounds_over(const BodyProperties& properties, const BodyPose& pose, const Sweep& sweep) {
   if (is_non_colliding(properties)) return k_nowhere;
   if (is_half_space(properties)) return k_everywhere;
@@ -75,7 +75,7 @@ void end_segment(const BodyProperties& properties, const BodySweep& sweep, Fract
   path.bound += swing_bound(properties, part.rotation_vector);
 }
 
-/// The rotation at the end of the tick, with the current sweep.
+/// The body's rotation at the end of the tick if it keeps its current sweep.
 Quat end_rotation(const ImpactStage& stage, uint32_t slot) {
   const BodySweep& sweep = stage.sweep_of(slot);
   return sweep_end_rotation(stage.pose_of(slot).rotation, rest_of(sweep, sweep.from));

@@ -7,7 +7,8 @@ inline namespace DETENT_NAMESPACE {
 
 #if DETENT_TASKS
 /// The moving bodies in a tree by the bounds of their sweeps. The first searches of a tick visit the list of all moving
-/// bodies; a tick with many searches makes the tree, in spare memory. Both ways find the same bodies.
+/// bodies. If a tick has many searches, the tree is made in spare memory and later searches use it. A search finds the
+/// same bodies in both ways.
 class MovingTree {
  public:
   bool is_made() const { return parents_.count != 0; }
@@ -36,7 +37,7 @@ class MovingTree {
   }
 
  private:
-  /// Making a tree takes about as long as this number of visits of the whole list.
+  /// Making a tree takes about as long as this number of visits to the whole list of moving bodies.
   static constexpr uint32_t k_searches_max = 48;
 
   uint32_t searches_ = 0;

@@ -11,7 +11,7 @@ struct SpareMemory {
   Span<uint64_t> words;
   uint32_t taken = 0;  ///< words taken so far
 
-  /// A piece for `count` elements; its elements are not initialised. An empty span if there is too little memory.
+  /// Takes memory for `count` elements, which are not initialised. Returns an empty span if there is too little memory.
   template <class T>
   Span<T> take(uint32_t count) {
     static_assert(alignof(T) <= 8);

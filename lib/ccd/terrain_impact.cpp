@@ -45,7 +45,7 @@ struct TerrainSearch {
   int64_t extent_along(const Vec32& direction) const {
     const Vec32 local = rotate_inverse(rotation, direction);
     const Vec32 farthest = local_support(convex, hull, local, 0).local;
-    // The error of a direction is less than 2^-28, that of a point 2 units.
+    // The error of a direction is less than 2^-28; that of a support point is less than 2 units of 2^(exponent - 30) m.
     const int64_t units = (dot(farthest, local) >> 30) + 4, core = raw_core_radius(convex);
     const int64_t extent = units * (int64_t{1} << (k_metre_bits - 30 + convex.exponent)) + (core >> 26);
     const int64_t reach = saturated_sum(extent + raw_radius(convex), swing);
@@ -135,15 +135,15 @@ struct TerrainSearch {
       visit({-k_all, -k_all, -k_all}, {k_all, k_all, k_all});
       return;
     }
-    // Search a long path part by part, and stop at the part with the first impact: a box around the whole path would
-    // contain many more triangles.
+    // A long path is searched part by part, up to the part with the first impact, because a box around the whole path
+    // would contain many more triangles.
     const int64_t longest = larger(size(displacement.x), larger(size(displacement.y), size(displacement.z)));
     int power = 0;
     while (!turns && power < k_parts_power_max && longest >> power > 4 * (radius + margin)) ++power;
     const int64_t parts = int64_t{1} << power;
     margin += parts - 1;  // the step is rounded down
     const Vec64 step = {displacement.x >> power, displacement.y >> power, displacement.z >> power};
-    // From the start of a part to the corners of its box.
+    // The offsets from the start of a part of the path to the lower and the upper corner of its box.
     const auto below = [&](int64_t along, const Vec32& axis) {
       return (along < 0 ? along : 0) - extent_along(negate(axis)) - margin;
     };

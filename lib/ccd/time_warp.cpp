@@ -6,11 +6,12 @@
 ///
 /// A group is optimistic: it takes all bodies but its own as they were when the groups started. A body becomes the
 /// group's own when the group makes an entry with it; the group then changes a copy of the body. When all groups have
-/// ended, they are compared. Two groups conflict if they have copies of the same body. They also conflict if a body of
-/// one group and a body of the other have an event when their tests are repeated with the states that both bodies have
-/// in the global order. The groups missed these tests, or made them with another state of the other body. Only bodies
-/// whose sweeps overlap by their bounds need to be compared. Repeated tests that find no event only correct the counts
-/// (PairTests). So groups without a conflict have the result of the global order.
+/// ended, they are compared. Two groups conflict if they have copies of the same body. They may also conflict through a
+/// body of one group and a body of the other group: each group tested its own body against the other body's state at
+/// the start, not against the state that the other body has in the global order. Therefore the tests of the two bodies
+/// are repeated with the states of the global order, if the bounds of their sweeps overlap. If a repeated test finds an
+/// event, the groups conflict. Otherwise the repeated tests only correct the counts (PairTests). Groups without a
+/// conflict have the result of the global order.
 ///
 /// Groups that conflict are rolled back: their copies are discarded, and they are run again as one group. The number
 /// of groups falls each time.
@@ -73,7 +74,8 @@ bool ImpactStage::make_room_for(uint64_t key) {
 namespace {
 
 constexpr uint32_t k_warp_parts_max = 64;
-/// Rounds after which the global order is used. Each round costs at most as much as the global order.
+/// If groups still conflict after this number of rounds, the global order is used. Each round costs at most as much as
+/// the global order.
 constexpr uint32_t k_warp_rounds_max = 4;
 
 /// The bounds of all sweeps of a changed body.
@@ -82,15 +84,15 @@ struct WarpRange {
   uint32_t group, body;
 };
 
-/// An output of a group, for sorting.
+/// The place of an output in the order of the outputs of all groups.
 struct WarpPlace {
   Fraction time;
   uint64_t order;
   uint32_t group, output;
 };
 
-/// The tests of two bodies of different groups. Each group made its tests with the other group's body as it was when
-/// the groups started.
+/// Repeats the tests of two bodies of different groups. Each group has tested its body only against the state that the
+/// other group's body had when the groups started.
 class PairTests {
  public:
   PairTests(const ImpactStage& start, const WarpPart& part) : stage_(start), part_(part) {
@@ -109,7 +111,8 @@ class PairTests {
 
   /// Repeats the tests of the two bodies. Each test is made with the states that both bodies have, in the global order,
   /// at the time of the test. Returns true if no repeated test finds an event; `correction` then includes the changes
-  /// of the counts. Returns false also if a body was moved without a later test, or if two tests have the same time.
+  /// of the counts. Also returns false if a body was moved without a later test, or if a test of each body has the same
+  /// time.
   bool agree(const WarpGroup& group_a, const WarpBody& a, const WarpGroup& group_b, const WarpBody& b) {
     if ((a.moved | b.moved | a.moved_untested | b.moved_untested) != 0) return false;
     const uint32_t slots[2] = {a.slot, b.slot};
@@ -193,11 +196,12 @@ class TimeWarp {
     leaders_[a > b ? a : b] = a > b ? b : a;
   }
   uint32_t asleep(uint32_t slot) const { return stage_.bodies.activities[slot].asleep; }
-  /// The leader of the bodies of an entry.
+  /// The leader of the dynamic bodies of an entry, which all have the same leader (`leaders_`).
   uint32_t leader_of(const ImpactPair& entry) {
     return leader_of(stage_.dynamic(pair_low(entry.key)) ? pair_low(entry.key) : pair_high(entry.key));
   }
-  /// Returns false if the global order is better, or if a group would have to wake a body.
+  /// Makes one group of all entries that dynamic bodies connect. Returns false if the global order is better, if a
+  /// group would have to wake a body, or if memory is short.
   bool make_groups(bool is_conservative) {
     const uint32_t slots = stage_.bodies.properties.count, entries = stage_.impact_count;
     if (!take(leaders_, slots) || !take(groups_of_, slots) || !take(next_start_, entries)) return false;
@@ -230,7 +234,7 @@ class TimeWarp {
     }
     return group_count > 1 && take(parts_, k_warp_parts_max);
   }
-  /// Whether the other threads would mostly wait for this group.
+  /// Whether the group has more than 3/4 of all entries, so that the other threads would mostly wait for it.
   bool is_too_large(const WarpGroup& group) const {
     return stage_.settings.team != nullptr && 4 * group.start_count > 3 * stage_.impact_count;
   }
@@ -246,7 +250,8 @@ class TimeWarp {
     return take(part.places, stage_.bodies.properties.count) && take(part.own.words, words) &&
            take(part.candidates.words, words);
   }
-  /// Runs the groups in `to_run_`. Each part runs every `parts`th of them, so that the parts are about equal.
+  /// Runs the groups in `to_run_`. Threads share the groups in `parts` parts. A part runs every group whose index, in
+  /// the order of decreasing size, is congruent to its own modulo `parts`, so the parts are about equal.
   void run_groups() {
     heap_sort(to_run_, [&](uint32_t a, uint32_t b) {
       const uint32_t size_a = groups_[a].start_count, size_b = groups_[b].start_count;
@@ -341,7 +346,8 @@ class TimeWarp {
     axis_ = k_axes[widest];
   }
 
-  /// Compares every `part_count_`th range with the ranges after it that overlap it. Merges groups that conflict.
+  /// Compares range number `part`, and every `part_count_`th range from there on, with the ranges after it that overlap
+  /// it. Merges groups that conflict.
   void compare_some(uint32_t part) {
     PairTests tests(start_, parts_[part]);
     for (uint32_t i = part; i < ranges_.count; i += part_count_) {
@@ -362,7 +368,7 @@ class TimeWarp {
     for (const auto number : k_impact_numbers) Team::add(correction_.*number, tests.correction.*number);
   }
 
-  /// Merges the groups that conflict. `to_run_` becomes the merged groups. Returns false if there are none.
+  /// Merges the groups that conflict, and lists the merged groups in `to_run_`. Returns false if no groups conflict.
   bool merge_conflicting() {
     uint32_t bodies = 0;
     for (const WarpGroup& group : groups_) bodies += group.body_count;
@@ -400,7 +406,7 @@ class TimeWarp {
   }
 
   /// Gives the bodies and the outputs of all groups to the stage. Returns false, and changes nothing, if the groups
-  /// together used more work, entries or memory than there is.
+  /// together need more work, entries or memory than there is.
   bool commit() {
     uint32_t entries = 0, output_count = 0;
     uint64_t work = 0;
@@ -457,10 +463,10 @@ class TimeWarp {
   const ImpactStage start_ = stage_;  ///< a copy that no thread changes
   uint32_t failed_ = 0;
   Span<uint32_t> leaders_;     ///< by slot: the bodies of a group have the same leader
-  Span<uint32_t> groups_of_;   ///< by slot: the group of a leader, or of a body
-  Span<uint32_t> next_start_;  ///< by entry: the next in the list of its group
+  Span<uint32_t> groups_of_;   ///< by slot: index of the group that this body leads, or that has copied it
+  Span<uint32_t> next_start_;  ///< by entry: index of the next entry in the list of its group
   Span<WarpGroup> groups_;
-  Span<uint32_t> to_run_;  ///< groups
+  Span<uint32_t> to_run_;  ///< indices of the groups that the next round runs
   Span<WarpRange> ranges_;
   uint32_t range_room_ = 0;
   Coord Position::*axis_ = nullptr;  ///< the axis along which `ranges_` is sorted

@@ -20,13 +20,13 @@ struct WarpBody : WarpSweep {
   uint32_t slot;
   uint32_t first_impact;  ///< as ImpactBodies::first_impact, in the group's own entries
   BodyMotion motion;
-  // Its tests in this tick: a list of indices + 1 in WarpGroup::tests.
+  // The first and the last test of the body in this tick: indices + 1 in WarpGroup::tests.
   uint32_t first_test, last_test;
   Bounds reach;             ///< contains the bounds of the sweeps that were tested; k_nowhere if there are none
   uint32_t changed;         ///< 0: the group has not changed the body
   uint32_t moved;           ///< 1: the group has moved the body since its last test
   uint32_t moved_untested;  ///< 1: for some state of the body no test was recorded
-  Fraction move_time;       ///< of the last move
+  Fraction move_time;       ///< time of the last move
 
   void move(Fraction time) {
     if (moved != 0 && time > move_time) moved_untested = 1;
@@ -38,10 +38,11 @@ struct WarpBody : WarpSweep {
 #if DETENT_TASKS
 /// An output whose order among the outputs of all groups matters: a hit, or the time that a stopped body loses.
 struct WarpOutput {
-  /// The highest key of the group's events at `hit.time`, up to and including the event with this output. In the global
-  /// order, this event cannot come before the event with that key.
+  /// The sort key among outputs with the same `hit.time`. It is the highest key of the group's events at that time, up
+  /// to and including the event with this output. In the global order, this event cannot come before the event with
+  /// that key.
   uint64_t order;
-  ImpactHit hit;  ///< of a stopped body: the key is 0 and `approach` is the lost fraction of the tick
+  ImpactHit hit;  ///< for a stopped body, the key is 0 and `approach` is the lost fraction of the tick
 };
 
 /// A test of a body's new sweep, by a group, against all bodies near it.
@@ -54,7 +55,7 @@ struct WarpTest : WarpSweep {
 struct WarpGroup {
   static constexpr uint32_t k_none = UINT32_MAX;
 
-  uint32_t leader = 0;  ///< index of the group into which this one was merged; its own if it was not
+  uint32_t leader = 0;  ///< index of the group into which this one was merged, or its own index
   // Its entries at the start: a list of indices in ImpactStage::impacts.
   uint32_t first_start = k_none, last_start = k_none, start_count = 0;
   // The result of its last run. The spans may be longer than these counts.
@@ -67,7 +68,7 @@ struct WarpGroup {
   ImpactReport report = {};
 };
 
-/// Work space for the groups that are run one after the other: empty before and after each.
+/// Work space for groups that one thread runs one after the other. It is empty before and after each group.
 struct WarpPart {
   Span<uint32_t> places;  ///< by slot: index + 1 of the group's copy, or 0
   BitSet own;             ///< slots with a copy
@@ -83,7 +84,7 @@ struct WarpPart {
   }
 };
 
-/// A body at the start, when no group has changed it.
+/// The data of a body when the groups start, before any group has changed it.
 WarpSweep start_of(const ImpactBodies& bodies, uint32_t slot);
 
 /// Doubles the room of a list if it is full. Returns false if there is no memory.
@@ -101,11 +102,11 @@ bool make_room(Span<T>& items, uint32_t used, SpareMemory& spare) {
 struct WarpRun {
   WarpGroup& group;
   const WarpPart& part;
-  const ImpactBodies& bodies;  ///< at the start; they do not change while groups run
+  const ImpactBodies& bodies;  ///< the bodies when the groups start; no group changes them
   SpareMemory& spare;
   uint32_t& failed;  ///< not 0: some group met a case that only the global order can handle
   Fraction time = 0.0;
-  uint64_t order = 0;  ///< as WarpOutput::order, of the present event
+  uint64_t order = 0;  ///< WarpOutput::order for outputs of the present event
 
   bool has_failed() const { return __atomic_load_n(&failed, __ATOMIC_RELAXED) != 0; }
   void fail() const { __atomic_store_n(&failed, 1u, __ATOMIC_RELAXED); }

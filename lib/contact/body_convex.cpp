@@ -8,7 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Returns `value` in 2^-30, rounded to nearest.
+/// Converts `value` to an integer in 2^-30, rounded to nearest.
 #if DETENT_FIXED
 int32_t raw_from_unit(Unit value) { return value.raw; }
 #else
@@ -18,8 +18,8 @@ int32_t raw_from_unit(Unit value) {
 }
 #endif
 
-/// The most by which the stored bounding radius can be too small, in 2^-30 of the unit of length. The radius and the
-/// sizes are each rounded.
+/// The most by which the stored bounding radius can be too small for the stored sizes, in 2^-30 of the body's unit of
+/// length. The error comes from rounding the radius and each size.
 constexpr int32_t k_bound_slack = sizeof(Unit) == 4 && !DETENT_FIXED ? 1 << 8 : 4;
 
 /// Sets the sizes, the core radius and the unit of length of `convex`. `size` and the core radius `bound` are in 2^-30

@@ -12,8 +12,8 @@ namespace {
 
 ShapeType type_of(const CollisionBody& body) { return static_cast<ShapeType>(body.properties.shape); }
 
-/// The rank of a shape. Half-spaces rank lowest, then boxes, then round shapes. The pair functions take the shape of
-/// lower rank as A.
+/// Returns the rank of a shape: 0 for a half-space, 1 for a box, 2 for a sphere or capsule. The specialised pair
+/// functions take the shape of lower rank as A.
 int rank_of(ShapeType type) { return type == ShapeType::half_space ? 0 : type == ShapeType::box ? 1 : 2; }
 
 /// Whether the specialised pair functions accept the shape: sphere, capsule, half-space or unrounded box.
@@ -38,7 +38,7 @@ bool are_spheres_apart([[maybe_unused]] const CollisionBody& a, [[maybe_unused]]
   return false;
 #else
   if (type_of(a) == ShapeType::half_space || type_of(b) == ShapeType::half_space) return false;
-  constexpr Real k_reach_max = 128.0;  // so that the sum of squares fits a Real
+  constexpr Real k_reach_max = 128.0;  // m; with this limit the sum of squares fits a Real
   const Real touching = bounding_radius_of(a.properties) + bounding_radius_of(b.properties) + margin;
   const Real reach = touching + scale_by_power(touching, -10);  // more than all rounding errors
   const Vec3<Real> offset = real_difference(b.pose.position, a.pose.position);
@@ -48,7 +48,8 @@ bool are_spheres_apart([[maybe_unused]] const CollisionBody& a, [[maybe_unused]]
 #endif
 }
 
-/// Sets the frame of a pair. Returns false if the centres are so far apart that the shapes cannot touch.
+/// Sets the frame of a pair: its unit of length, the contact margin and the two shapes. Returns false if the centres
+/// are so far apart that the shapes cannot be within the margin (m).
 bool make_frame(const CollisionBody& first, const CollisionBody& second, Real margin, PairFrame& frame) {
   const Position& from = first.pose.position;
   const Position& to = second.pose.position;

@@ -9,12 +9,13 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+/// A contact point of two bodies.
 struct ContactGeometryPoint {
-  /// From the centre of mass of A (`arm_a`) or B (`arm_b`) to the point midway between the surfaces, in the unit of
-  /// length of A or B. Zero for a half-space.
+  /// The vector from the centre of mass of A (`arm_a`) or of B (`arm_b`) to the point midway between the surfaces, in
+  /// world axes, in the unit of length of that body. Zero if that body is a half-space.
   Vec3<Unit> arm_a, arm_b;
   Real separation;    ///< along the normal, m; negative when overlapping
-  uint32_t feature;   ///< name of the touching pair of features: distinct, the same while they touch, never 0
+  uint32_t feature;   ///< key of the two features that touch: distinct in a contact, constant while they touch, not 0
   uint32_t part = 0;  ///< for compounds: 2^16 (child number in A) + (child number in B), both counted from 1
 };
 
@@ -36,13 +37,13 @@ struct ContactGeometry {
   Vec3<Unit> normal;  ///< from A to B
   uint32_t count = 0;
   bool seam = false;    ///< the contact lies at a seam: it was removed, or its normal was replaced
-  bool turns = false;   ///< the normal is that of no face or edge pair: it rotates as the shapes slide past each other
-  bool near = false;    ///< no point was found, but parts of the shapes may be within the margin
+  bool turns = false;   ///< no face and no two crossing edges fix the normal: it rotates as the shapes slide
+  bool near = false;    ///< no point was found, but the shapes may be within the contact margin of each other
   bool capped = false;  ///< a search reached its iteration cap, hull bytes are missing, or a position is out of range
   ContactGeometryPoint point[k_manifold_points_max];
 };
 
-/// Depth of the deepest point, m; negative if all points are apart. Needs at least one point.
+/// Returns the depth of the deepest point, m; negative if the surfaces are apart at all points. Range: count > 0.
 inline Real depth_of(const ContactGeometry& geometry) {
   Real least = geometry.point[0].separation;
   for (uint32_t i = 1; i < geometry.count; ++i) least = min(least, geometry.point[i].separation);
@@ -56,16 +57,17 @@ struct CollisionBody {
   const Matrix3& rotation;
 };
 
-/// Finds the contact points of a pair. Points with a separation above `margin.distance`, m, are left out; the result
-/// may be empty. Pairs of spheres, capsules, unrounded boxes and half-spaces have specialised functions; all other
-/// pairs go through contact_points(). `features` must include those of both shapes, and `rounding` if a shape is
-/// rounded. Precision (fixed point; tests/unit/contact): 2^-26 of the larger body's bounding diameter. Against a
-/// half-space: 2^-26 of the other body's size and 2^-31 of its distance from the plane's origin.
+/// Finds the contact points of two bodies with convex shapes. Points with a separation above `margin.distance`, m, are
+/// left out; the result may have no points. Pairs of spheres, capsules, unrounded boxes and half-spaces have
+/// specialised functions; all other pairs go through contact_points(). `features` must include the linked features of
+/// both shapes, and `rounding` if a shape is rounded. Precision (fixed point; tests/unit/contact): 2^-26 of the larger
+/// body's bounding diameter. Against a half-space: 2^-26 of the other body's size plus 2^-31 of its distance from the
+/// plane's origin.
 void collide(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin, ContactGeometry& contact,
              const AssetTable& assets = {}, ManifoldReduction reduction = ManifoldReduction::projected_extremes,
              const FeatureTable& features = feature_table<Features::all>);
 
-/// Exchanges A and B in the contact.
+/// Exchanges A and B in the contact: negates the normal and exchanges the arms. Features and parts keep their keys.
 void swap_bodies(ContactGeometry& contact);
 
 }  // namespace DETENT_NAMESPACE

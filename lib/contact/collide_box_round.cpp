@@ -7,10 +7,12 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Unit k_meeting = 0x1p-24;  // a core closer to the box than this (pair's unit) gives no reliable direction
+// If the core of the round shape is closer to the box than this (pair's unit), their nearest points give no reliable
+// direction.
+constexpr Unit k_meeting = 0x1p-24;
 // A normal within 2^-13 rad of a face normal is replaced by the face normal. This changes lengths by a factor of at
-// most 1 + 2^-27. The replacement lets a capsule that lies across the rim of a face keep both its points in spite of
-// jitter.
+// most 1 + 2^-27. With the face normal, a capsule that lies across the edge of a face keeps its two contact points when
+// it jitters.
 constexpr int k_upright_power = -13;
 
 struct Axes {
@@ -40,9 +42,10 @@ struct BoxAndSegment {
   Unit slope(Unit along) const { return dot(vector_of(direction), vector_of(excess(along))); }
 };
 
-/// Returns the position along the segment of its point closest to the box. At this point, slope() changes its sign, or
-/// the segment ends. The function finds the two neighbouring crossings of face planes between which the sign changes,
-/// and interpolates once between them. If the slope is zero over an interval, it returns the middle of that interval.
+/// Returns the position along the segment, from its centre, of its point closest to the box. At this point, slope()
+/// changes its sign, or the segment ends. The function computes slope() where the segment crosses planes of faces,
+/// finds the two neighbouring crossings between which the sign changes, and interpolates once between them. If the
+/// slope is zero over an interval, the result is the middle of that interval.
 Unit closest_along(const BoxAndSegment& pair) {
   const Unit zero = 0.0;
   const Unit limit = pair.half_length;
@@ -81,9 +84,10 @@ Unit closest_along(const BoxAndSegment& pair) {
   return span > zero ? low + (high - low) * divide(-low_slope, span) : low;
 }
 
+/// The contact of a box and a segment, in the box's axes.
 struct BoxContact {
   Axes normal;  ///< outward from the box
-  int face;     ///< axis of the face to which the normal belongs, or -1
+  int face;     ///< axis of the face to which the normal belongs; -1: the normal is not that of a face
   Unit along;   ///< position of the contact point along the segment; used if `face` is -1
 
   /// Moves the contact to the face that is perpendicular to `axis`, on the side to which the normal points. The normal
@@ -122,8 +126,8 @@ BoxContact least_overlap(const BoxAndSegment& pair) {
     Unit support = zero;
     for (int i = 0; i < 3; ++i) support += pair.half.v[i] * abs(n.v[i]);
     const Unit separation = dot(normal, vector_of(pair.centre)) - support;
-    // An edge replaces a face only if its separation is clearly larger. So a resting pair does not alternate between
-    // them.
+    // An edge replaces a face only if the separation along its normal is clearly larger. So a resting pair does not
+    // alternate between face and edge.
     if (separation > best_separation + scale_by_power(pair.half.v[axis], -6)) {
       best_separation = separation;
       Segment box_edge = {vector_of({{zero, zero, zero}}), vector_of(edge), pair.half.v[axis]};
@@ -156,7 +160,8 @@ bool clip_to_face(const BoxAndSegment& pair, int face, Unit& low, Unit& high) {
   return low <= high;
 }
 
-/// Returns the axis of the box edge that is perpendicular to the normal, or -1 if there is none.
+/// Returns the axis of the box to which the normal is perpendicular (the axis of the touched edge), or -1 if there is
+/// none.
 int edge_of(const BoxContact& contact) {
   int edge = -1;
   for (int axis = 0; axis < 3; ++axis) {
@@ -165,7 +170,7 @@ int edge_of(const BoxContact& contact) {
   return edge;
 }
 
-/// Whether the segment is within 2^-5 rad of the direction of the edge. The limit is the same as for edges of hulls.
+/// Whether the segment is within 2^-5 rad of the direction of the edge. For two edges of hulls the limit is the same.
 bool is_along(const BoxAndSegment& pair, int edge) { return abs(pair.direction.v[edge]) > Unit(1.0 - 0x1p-11); }
 
 /// Whether the normal of a contact at an edge rotates as the shapes slide past each other. It does not rotate if the

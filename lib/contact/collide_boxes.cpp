@@ -8,14 +8,14 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Unit k_edge_sine_min = 0x1p-5;  // edges closer to parallel than 1.8 degrees give no separating axis
+constexpr Unit k_edge_sine_min = 0x1p-5;  // two edges closer to parallel than 1.8 degrees give no separating axis
 
 struct HalfExtents {
   Unit v[3];
 };
 
-/// Input of the separating axis test: the vector from A's centre to B's along the six face axes, and the cosines
-/// between the axes of A and B.
+/// Input of the separating axis test: the half extents, the components of the vector from A's centre to B's along the
+/// six face axes, and the cosines between the axes of A and B.
 struct AxisTable {
   HalfExtents half_a, half_b;
   Unit offset_a[3], offset_b[3];
@@ -69,8 +69,8 @@ bool edge_separation(const AxisTable& t, int i, int j, Unit& separation) {
   const Unit offset = abs(t.offset_a[i2] * t.cosine[i1][j] - t.offset_a[i1] * t.cosine[i2][j]);
   const Unit support_a = t.half_a.v[i1] * abs(t.cosine[i2][j]) + t.half_a.v[i2] * abs(t.cosine[i1][j]);
   const Unit support_b = t.half_b.v[j1] * abs(t.cosine[i][j2]) + t.half_b.v[j2] * abs(t.cosine[i][j1]);
-  // Below -1 the quotient could leave Unit's range. Such an overlap is never the least overlap of shapes in the unit
-  // ball.
+  // If the separation is -1 or less, the quotient could leave Unit's range. Such an overlap is never the least overlap,
+  // because both shapes lie in the unit ball.
   const Unit scaled = offset - support_a - support_b;
   if (scaled <= -sine) return false;
   separation = divide(scaled, sine);
@@ -90,9 +90,9 @@ struct FaceAxes {
   Unit a[3], b[3];
 };
 
-/// Finds the face axis of largest separation. A face of B replaces a face of A only if its separation is larger by more
-/// than `preference` (preference_of()). So a resting pair keeps its features. Returns false if a face axis separates
-/// the boxes by more than `margin`.
+/// Sets `best` to the face axis of largest separation, and `face` to the separations along all face axes. A face of B
+/// replaces a face of A only if its separation is larger by more than `preference` (preference_of()). So the features
+/// of a resting pair stay the same. Returns false if a face axis separates the boxes by more than `margin`.
 bool find_face_axis(const AxisTable& table, Unit margin, Unit preference, FaceAxes& face, SeparatingAxis& best) {
   best = {AxisKind::face_a, 0, 0, -1.5};
   for (int i = 0; i < 3; ++i) {
@@ -136,8 +136,8 @@ __attribute__((noinline)) bool is_box_sliver(const AxisTable& table, const FaceA
   return false;
 }
 
-/// Finds the axis of largest separation. A pair of edges replaces a face only if its separation is larger by more than
-/// `preference`. Returns false if an axis separates the boxes by more than `margin`.
+/// As find_face_axis(), but also tests the cross products of edges. A pair of edges replaces a face only if its
+/// separation is larger by more than `preference`. Returns false if any axis separates the boxes by more than `margin`.
 __attribute__((noinline)) bool find_axis(const AxisTable& table, Unit margin, Unit preference, FaceAxes& face,
                                          SeparatingAxis& best) {
   if (!find_face_axis(table, margin, preference, face, best)) return false;
@@ -159,7 +159,9 @@ __attribute__((noinline)) bool find_axis(const AxisTable& table, Unit margin, Un
 /// A vertex of the clipped face, in the reference face's axes: u and v in the plane of the face, w the height above it.
 struct FaceVertex {
   Unit u, v, w;
-  uint32_t label;  ///< 0..3: incident vertex; 4..19: 4 + 4 (incident edge) + (reference side); 20..23: reference corner
+  /// Name of the vertex. 0..3: an incident vertex; 4..19: 4 + 4 (incident edge) + (reference side); 20..23: a corner of
+  /// the reference face.
+  uint32_t label;
   uint32_t edge_label;  ///< label of the edge to the next vertex; 0..3: incident edge, 4..7: reference side
 };
 
@@ -174,9 +176,10 @@ uint32_t crossing_label(uint32_t edge_label, uint32_t side) {
   return 20 + (u_side & 1) + 2 * (v_side & 1);
 }
 
-/// Clips a polygon at one side of the face and returns the number of vertices kept. Keeps vertices up to `slack` beyond
-/// the side, but cuts an edge at the side itself if its inner end is not beyond the side. The side is at u = limit for
-/// side 0, -u = limit for side 1, v = limit for side 2, -v = limit for side 3.
+/// Clips the polygon `in` at one side of the reference face. Sets `out` to the result and returns its number of
+/// vertices. Vertices up to `slack` beyond the side are kept. An edge whose outer end is not kept is cut at the side
+/// itself or, if its inner end is beyond the side too, at `slack` beyond the side. The side is at u = limit for side 0,
+/// -u = limit for side 1, v = limit for side 2, -v = limit for side 3.
 uint32_t clip_side(const FaceVertex* in, uint32_t count, uint32_t side, Unit limit, Unit slack, FaceVertex* out) {
   const auto beyond = [&](const FaceVertex& p) {
     const Unit across = side < 2 ? p.u : p.v;
@@ -209,8 +212,8 @@ int64_t raw_from(Unit value) {
 #endif
 }
 
-/// Chooses at most four vertices for the contact and returns their number. `drop`: as in AreaChoice. `chosen`: the
-/// indices of the chosen vertices, ascending.
+/// Chooses at most four vertices of the clipped polygon for the contact, and returns their number. `drop`: as in
+/// AreaChoice. Sets `chosen` to the indices of these vertices, ascending.
 uint32_t choose_corners(const FaceVertex* polygon, uint32_t count, ManifoldReduction reduction, Unit drop,
                         uint32_t chosen[k_manifold_points_max]) {
   if (count <= k_manifold_points_max) {
@@ -234,8 +237,8 @@ uint32_t choose_corners(const FaceVertex* polygon, uint32_t count, ManifoldReduc
 
 Unit sign_of(Unit value) { return value < Unit(0.0) ? Unit(-1.0) : Unit(1.0); }
 
-/// Finds the contact on a face of A, or of B: the face that is perpendicular to axis `face` of this box, on the side of
-/// the other box.
+/// Finds the contact on a face of the reference box, which is A if `reference_is_a`, else B. The face is perpendicular
+/// to axis `face` of this box and lies on the side of the other box.
 __attribute__((noinline)) void collide_face(const PairFrame& frame, bool reference_is_a, int face,
                                             PairManifold& manifold) {
   const PairShape &reference = reference_is_a ? frame.a : frame.b, &incident = reference_is_a ? frame.b : frame.a;
@@ -256,8 +259,8 @@ __attribute__((noinline)) void collide_face(const PairFrame& frame, bool referen
       opposed = i;
     }
   }
-  // A vertex barely beyond a side of the face is not clipped. Otherwise equal boxes that are stacked flush would change
-  // features, and lose their impulses, at the slightest jitter.
+  // A vertex at most `slack` beyond a side of the face is not clipped. Otherwise the contact points of equal boxes that
+  // are stacked flush would change their features, and lose their impulses, at the slightest jitter.
   Unit smallest = half.v[0];
   for (int i = 0; i < 3; ++i) smallest = min(smallest, min(half.v[i], other.v[i]));
   const Unit slack = scale_by_power(smallest, -6);
@@ -280,7 +283,8 @@ __attribute__((noinline)) void collide_face(const PairFrame& frame, bool referen
     count = clip_side(clipped, count, 1, limit_u, beyond, polygon);
     count = clip_side(polygon, count, 2, limit_v, beyond, clipped);
     count = clip_side(clipped, count, 3, limit_v, beyond, polygon);
-    // If the faces only meet beyond a corner, the sides are moved outward.
+    // If nothing is left, the faces may overlap only beyond a corner of the reference face, within the slack. The
+    // polygon is then clipped once more, with the sides moved outward by the slack.
     if (count != 0 || beyond == Unit(0.0)) break;
   }
 
@@ -301,8 +305,8 @@ __attribute__((noinline)) void collide_face(const PairFrame& frame, bool referen
   }
 }
 
-/// Returns the edge of the box that is parallel to axis `edge` and lies farthest along `direction`. `which`: its
-/// number.
+/// Returns the edge of the box that is parallel to axis `edge` and lies farthest along `direction`. Sets `which` to the
+/// number of this edge, 0 to 11.
 Segment support_edge(const PairShape& box, int edge, const Vec3<Unit>& direction, uint32_t& which) {
   const HalfExtents half = half_of(box.size);
   Segment segment = {box.centre, box.rotation.column[edge], half.v[edge]};
@@ -316,11 +320,12 @@ Segment support_edge(const PairShape& box, int edge, const Vec3<Unit>& direction
   return segment;
 }
 
-/// Replaces the contact of two crossing edges by the contact of the face whose normal is nearest to `normal`. Crossing
-/// edges touch in one point, and this point can jump from one side of the face to the other between two ticks. Returns
-/// false, with `manifold` unchanged, in these cases, where p is `preference`: no face normal is within 2^-3 rad; the
-/// edges are more than p apart; the face has fewer than two contact points; its deepest point is more than p deeper, or
-/// more than p / 16 shallower, than the edges. An edge may reach any depth beyond the sides of the face.
+/// Replaces the contact of two crossing edges by the contact on the face whose normal is nearest to the edges'
+/// `normal`. Crossing edges touch in one point, and this point can jump from one side of the face to the other between
+/// two ticks. Returns false, with `manifold` unchanged, in these cases, where p is `preference` and `separation` is
+/// that of the edges: no face normal is within 2^-3 rad of `normal`; the edges are more than p apart; the face has
+/// fewer than two contact points; the separation of its deepest point is more than p smaller, or more than p / 16
+/// larger, than that of the edges. How deep an edge lies beyond the sides of the face does not matter.
 __attribute__((noinline)) bool collide_leaning_face(const PairFrame& frame, const Vec3<Unit>& normal, Unit separation,
                                                     Unit preference, PairManifold& manifold) {
   constexpr Unit k_leaning = 1.0 - 0x1p-7;
@@ -378,7 +383,8 @@ void collide_boxes(const PairFrame& frame, PairManifold& manifold) {
     collide_edges(frame, axis, preference, manifold);
   else
     collide_face(frame, is_a, is_a ? axis.i : axis.j, manifold);
-  // Axes that separate the boxes by at most the margin do not show whether two vertices are as near.
+  // No axis separates the boxes by more than the margin. Still, two vertices may be farther apart. So if no point was
+  // found, it is not known whether the boxes are within the margin.
   manifold.near = manifold.count == 0;
 }
 

@@ -25,15 +25,16 @@ void add_points(const CollisionBody& a, const CollisionBody& b, const ContactMan
 }
 
 /// Finds the contact of a half-space and a convex shape. The plane's origin may be too far away for contact_points().
-/// The origin is therefore moved to the point of the plane that is nearest to the body. Rounding this point to
-/// coordinates changes the body's height above the plane by `height_error`, which is added back to the separations.
+/// The origin is therefore moved to the point of the plane that is nearest to the body. This point is rounded to
+/// coordinates, which changes the body's height above the plane. The change, `height_error`, is added back to the
+/// separations.
 Status meet_half_space(const CollisionBody& plane, const CollisionBody& body, const Convex& convex, bool plane_is_a,
                        Real margin, ManifoldReduction reduction, ContactManifold& manifold) {
   const Vec3<Unit>& up = plane.rotation.column[1];
   const Real height = distance_along(plane.pose.position, body.pose.position, up);
   const Real radius = bounding_radius_of(body.properties);
   if (height > radius + margin) return Status::ok;
-  // The depth is clamped: a body this far below the plane is completely below it.
+  // The depth is clamped to two bounding radii: at this depth, the body is already completely below the plane.
   const Real down = clamp(height, scale_by_power(-radius, 1), radius + margin);
   const Position centre = {0.0, 0.0, 0.0};
   Position foot = centre;

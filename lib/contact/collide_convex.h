@@ -11,18 +11,19 @@ inline namespace DETENT_NAMESPACE {
 /// length is NaN, infinite, or 2^17 m or more.
 bool make_rules(const ContactMargins& margin, ManifoldReduction reduction, ContactRules& rules);
 
+/// Entry of the feature table.
 struct ConvexOps {
   void (*collide)(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin,
                   const AssetTable& assets, ManifoldReduction reduction, ContactGeometry& contact);
 };
 
-/// Finds the contact of any two convex shapes except two half-spaces, by contact_points(). `contact` must be empty.
-/// Also sets `capped` if the bytes of a hull are missing or a position is out of range.
+/// Finds the contact of two bodies with convex shapes, at most one of them a half-space, by contact_points(). `contact`
+/// must be empty. Also sets `contact.capped` if the bytes of a hull are missing or a position is out of range.
 void collide_convex(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin,
                     const AssetTable& assets, ManifoldReduction reduction, ContactGeometry& contact);
 
-/// As collide_convex(), for the convex shapes `convex_a` and `convex_b` at the poses of the bodies. Each of them is the
-/// shape of its body or a part of that shape.
+/// As collide_convex(), but with the convex shapes `convex_a` and `convex_b`, in the axes of the bodies. Each of them
+/// is the shape of its body or a part of that shape.
 void collide_convexes(const CollisionBody& a, const Convex& convex_a, const CollisionBody& b, const Convex& convex_b,
                       const ContactMargins& margin, ManifoldReduction reduction, ContactGeometry& contact);
 

@@ -17,7 +17,7 @@ Real distance_along(const Position& from, const Position& to, const Vec3<Unit>& 
   const Int128 sum =
       term(from.x, to.x, direction.x) + term(from.y, to.y, direction.y) + term(from.z, to.z, direction.z);
   constexpr int k_shift = Coord::k_frac + Unit::k_frac - Real::k_frac;
-  constexpr int k_lift = k_shift < 1 ? 1 - k_shift : 0;  // fx32: the product has too few fractional bits
+  constexpr int k_lift = k_shift < 1 ? 1 - k_shift : 0;  // fx32: k_shift is 0, but round_shift() needs at least 1
   const Int128 lifted = sum.shift_left(k_lift);
   const Int128 limit = Int128::from(INT64_MAX).shift_left(k_shift + k_lift);
   if (limit < lifted) return k_real_max;
@@ -33,8 +33,8 @@ Real distance_along(const Position& from, const Position& to, const Vec3<Unit>& 
 
 namespace {
 
-/// Collects the points of the body that lie within the contact margin of the plane. Points are relative to the centre
-/// of the body, in its unit of length.
+/// Adds those points of a body to `contact` that lie at most `margin` above the plane. Points are relative to the
+/// body's centre, in world axes, in the body's unit of length.
 struct Collector {
   Vec3<Unit> normal;
   Real height;  ///< height of the body's centre above the plane, m
@@ -45,7 +45,8 @@ struct Collector {
   void add(const Vec3<Unit>& offset, uint32_t feature) {
     const Real separation = height + real_from_unit(dot(normal, offset), exponent);
     if (separation > margin) return;
-    // Clamps the depth for the arm only. The separation is not clamped: a body far below the plane is still in contact.
+    // The depth is clamped only to compute the arm. The separation is not clamped: a body far below the plane is still
+    // in contact.
     const Real unit = real_from_unit(Unit(1.0), exponent);
     const Unit half = unit_from_real(scale_by_power(max(separation, -unit), -1), exponent);
     contact.point[contact.count++] = {{0.0, 0.0, 0.0}, arm_of_point(offset - normal * half, 0), separation, feature};

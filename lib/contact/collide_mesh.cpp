@@ -12,7 +12,8 @@ namespace {
 uint32_t feature_of(uint32_t feature, const uint32_t (&corner)[3]) {
   const uint32_t kind = feature >> 10 & 3, index = feature & 0x3ff, kept = feature & 0xfffc00u;
   if (kind == static_cast<uint32_t>(FeatureType::face)) return kept;
-  // The ends of the edges, as in contact_feature.h: edge 0 has corners 0 and 1, edge 1 has 0 and 2, edge 2 has 1 and 2.
+  // edge_index() numbers the edges of a triangle by their ends: edge 0 has the corners 0 and 1, edge 1 has 0 and 2,
+  // edge 2 has 1 and 2.
   const uint32_t name = kind == static_cast<uint32_t>(FeatureType::vertex) ? corner[index % 3]
                         : index == 0                                       ? corner[0] + corner[1]
                         : index == 1                                       ? corner[0] + corner[2]
@@ -20,9 +21,9 @@ uint32_t feature_of(uint32_t feature, const uint32_t (&corner)[3]) {
   return kept | (name & 0x3ff) | (name >> 10 & 0xff) << 24;
 }
 
-/// The angle up to which normals of triangles count as one is 2^-k rad; this function returns k. The angle is about
-/// 1/32 of the half thickness over the radius of the core. So at the ends of a long shape, triangles differ from their
-/// common plane by about a 32nd of the half thickness.
+/// Returns k: normals of triangles count as the same normal if they are at most 2^-k rad apart. The angle 2^-k is about
+/// 1/32 of the ratio of the shape's half thickness to its core radius. So at the ends of a long shape, the triangles of
+/// one manifold differ from a common plane by about a 32nd of the half thickness.
 int same_power_of(const Convex& shape, int64_t half_thickness) {
   constexpr int k_least = 5, k_most = 12;
   const int power = k_least + shape.exponent - raw_exponent_above(half_thickness);

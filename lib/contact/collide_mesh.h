@@ -5,10 +5,10 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Finds the contacts of terrain (a mesh or height field, of body `ground`) with a convex shape, up to a separation of
-/// `margin.distance`, m. The shape is in the axes of `body`; it is the shape of that body or a part of it. `middle`:
-/// the middle of the shape in these axes, 2^-46 m; it decides on which side of the terrain the shape is. Precision:
-/// 2^-28 of the sum of the body's size and the triangle's extent. Stack: 16 KB.
+/// Finds the contacts of terrain (a mesh or height field, of the body `ground`) with a convex shape, up to a separation
+/// of `margin.distance`, m. `shape`: the shape of `body` or a part of it, in the axes of `body`. `middle`: the middle
+/// of `shape` in these axes, 2^-46 m; it decides on which side of the terrain the shape is. Precision: 2^-28 of the sum
+/// of the body's size and the triangle's extent. Stack: 16 KB.
 void collide_mesh(const Terrain& terrain, const CollisionBody& ground, const CollisionBody& body, const Convex& shape,
                   const Vec64& middle, const ContactMargins& margin, TerrainContacts& contacts);
 

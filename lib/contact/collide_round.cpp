@@ -6,7 +6,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-// Limit of sin^2 of the angle between two capsules. Capsules closer to parallel than 3.6 degrees touch along a line.
+// Limit of sin^2 of the angle between the axes of two capsules: at less than 3.6 degrees they touch along a line.
 constexpr Unit k_parallel = 0x1p-8;
 
 Segment core(const PairShape& shape) {
@@ -14,8 +14,8 @@ Segment core(const PairShape& shape) {
   return {shape.centre, shape.rotation.column[1], half};
 }
 
-/// A direction perpendicular to both cores, for cores that intersect. Any such direction is right; this choice is
-/// deterministic.
+/// Returns the normal for two cores that intersect: a unit vector perpendicular to both. Any such vector would do; this
+/// choice is deterministic.
 Vec3<Unit> normal_of_meeting(const Segment& a, const Segment& b) {
   Vec3<Unit> normal = {0.0, 1.0, 0.0};
   Unit size = 0.0;

@@ -3,13 +3,14 @@
 
 #include "contact/manifold.h"
 
-/// Contact functions for pairs of given shape types, in the pair's frame. Each function fills an empty manifold, or
-/// leaves it empty if the shapes are farther apart than `frame.margin`. Lengths err by at most 2^-26 of the pair's unit
-/// of length.
+/// Contact functions for pairs of given shape types, in the pair's frame (PairFrame). Each function gets an empty
+/// manifold and fills it. The manifold stays without points if the shapes are farther apart than `frame.margin`, or if
+/// the contact of two boxes is removed because it lies at a seam (contact_seam.h). Lengths err by at most 2^-26 of the
+/// pair's unit of length.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Cosine of 2^-2 rad. Directions at a smaller angle count as the same direction (contact_seam.h).
+/// Cosine of 2^-2 rad. In contact_seam.h, two directions at a smaller angle count as the same direction.
 inline constexpr Unit k_alike_cosine = 1.0 - 0x1p-5;
 
 /// Entry of the feature table: one of the functions below.
@@ -17,12 +18,12 @@ struct PairOps {
   void (*collide)(const PairFrame& frame, PairManifold& manifold);
 };
 
-/// Spheres and capsules with each other: closest points of their cores.
+/// Two shapes, each a sphere or a capsule: finds the closest points of their cores.
 void collide_round(const PairFrame& frame, PairManifold& manifold);
-/// A box (A) and a sphere or capsule (B): closest points of the box and the core, or the direction of least overlap if
-/// the box and the core intersect.
+/// A box (A) and a sphere or capsule (B): finds the closest points of the box and the core of B or, if these intersect,
+/// the direction of least overlap.
 void collide_box_round(const PairFrame& frame, PairManifold& manifold);
-/// Two boxes: the separating axis test, then clipping of faces or closest points of edges.
+/// Two boxes: makes the separating axis test, then clips faces or finds the closest points of two edges.
 /// Source: Gottschalk, Lin, Manocha, "OBBTree", 1996 (the fifteen axes); Sutherland, Hodgman 1974 (the clipping).
 void collide_boxes(const PairFrame& frame, PairManifold& manifold);
 

@@ -10,8 +10,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Represents a ball or a capsule of a compound by a degenerate triangle: all corners of a ball and two corners of a
-/// capsule coincide. Unlike a sphere or capsule shape, a triangle need not be centred at the body's centre.
+/// Sets the core of a child that is a ball or a capsule to a degenerate triangle: all three corners coincide for a
+/// ball, and two for a capsule. Unlike a sphere or capsule, a triangle need not be centred at the body's centre.
 void set_round_core(const CompoundChild& child, int32_t exponent, Convex& convex) {
   const Vec32 ends[2] = {child.low, child.high};
   int64_t bound = 0;
@@ -51,7 +51,8 @@ int64_t raw_size(Unit value, int32_t exponent) {
   return raw_from_real({real_from_unit(value, exponent), Real(0.0), Real(0.0)}, raw) ? raw.x : 0;
 }
 
-/// Returns a name for a feature or contact of a part, or of a pair of parts. It is never 0.
+/// Returns a hash of `name` (the key of a feature or a contact) and of `part` (the part or pair of parts to which it
+/// belongs). The result is never 0.
 uint32_t name_of_part(uint32_t part, uint32_t name) {
   uint32_t mixed = (name ^ part * 0x9e3779b1u) * 0x85ebca77u;
   mixed ^= mixed >> 15;
@@ -74,7 +75,7 @@ int64_t half_thickness_of(const BodyProperties& a, const BodyProperties& b) {
   return of_a < of_b ? of_a : of_b;
 }
 
-constexpr int k_same_power = 5;  ///< normals of parts at most 2^-5 rad apart count as one
+constexpr int k_same_power = 5;  ///< contact normals of parts at most 2^-5 rad apart count as one normal
 
 /// Collects the contacts of pairs of parts. Contact points in one plane form one contact, whichever parts they belong
 /// to.
@@ -86,7 +87,8 @@ class PartContacts {
         body_(swapped_ ? a : b),
         found_(half_thickness_of(a.properties, b.properties), k_same_power) {}
 
-  /// `part`: as ContactGeometryPoint::part. `contact.key`: distinct among the contacts of a part.
+  /// Adds the contact of one pair of parts. `part`: as ContactGeometryPoint::part. `contact.key` must be distinct among
+  /// the contacts of the same `part`.
   void add(const TerrainContact& contact, uint32_t part) {
     ContactGeometry geometry = contact.geometry;
     if (geometry.count == 0) return;

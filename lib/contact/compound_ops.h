@@ -15,13 +15,14 @@ class ConvexParts {
   ConvexParts(const BodyProperties& properties, const AssetTable& assets);
 
   uint32_t count() const { return count_; }
-  /// Makes part `i`. False if an asset is missing. `inner`: for a hull child of a compound, take its inner hull.
+  /// Sets `convex` to part `i`. Returns false if an asset is missing. `inner`: for a hull child of a compound, takes
+  /// its inner hull, which is used to test bodies that penetrate deeply.
   bool convex(uint32_t i, bool inner, Convex& convex) const;
   /// The number of part `i` in contacts: the child's number, counted from 1; 0 if the body is not a compound.
   uint32_t name(uint32_t i) const { return whole() ? 0 : i + 1; }
-  /// Bounds of the part in the body's axes, 2^-46 m: `middle` and half extents. For a body that is not a compound,
-  /// these are the bounds of its bounding ball. For a half-space the half extents are zero, and the caller must not
-  /// cull it.
+  /// Sets `middle` and `half` to the middle and the half extents of the part's bounds in the body's axes, 2^-46 m. For
+  /// a body that is not a compound, these are the bounds of its bounding ball. For a half-space the half extents are
+  /// zero, so the caller must not cull it.
   void place(uint32_t i, Vec64& middle, Vec64& half) const;
 
  private:

@@ -5,14 +5,14 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// The greatest length of an arm: the vector from the centre of mass to a contact point, in the body's unit of length.
-/// An impulse needs the product of arm, inverse inertia and arm, which fits a Unit with this limit. The body's own
-/// points are at most 1 from the centre of mass, and a contact point is at most half the gap farther out. Only the
-/// midpoint of a deep overlap with a much larger body can lie beyond the limit; the arm to that midpoint is clamped to
-/// the limit.
+/// To compute an impulse, the solver multiplies arm, inverse inertia and arm; with this limit the product fits a Unit.
+/// The body's own points are at most 1 from the centre of mass, and a contact point is at most half the gap farther
+/// out. Only the midpoint of a deep overlap with a much larger body can lie beyond the limit. The arm to such a
+/// midpoint is clamped to the limit.
 inline constexpr Unit k_arm_max = 1.25;
 
-/// Converts a point to an arm. The point is in units of 2^power times the body's unit. Overflow: the length is clamped
-/// to k_arm_max.
+/// Converts a point to an arm. The point is relative to the centre of mass, in a unit of length that is 2^power times
+/// the body's. Overflow: the length is clamped to k_arm_max.
 Vec3<Unit> arm_of_point(const Vec3<Unit>& point, int power);
 /// Converts a displacement in m to an arm, for a body whose unit is 2^exponent m. Overflow: the length is clamped to
 /// k_arm_max.

@@ -6,7 +6,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int32_t k_push = 256;  ///< ulps; an overlap deep enough to have a reliable direction
+constexpr int32_t k_push = 256;  ///< ulps; two cores that overlap by this much have a reliable axis
 
 constexpr int64_t k_rounded = 1024;  ///< ulps; more than the errors of gjk() and of the support points
 
@@ -15,8 +15,8 @@ ContactAxis axis_of(const Penetration& found) {
 }
 
 /// Finds the contact axis of two cores whose gjk() search was capped. `distance`: an upper bound of their distance,
-/// ulps. The function moves B against `normal` by `distance` and k_push, and finds the direction of least penetration
-/// there. Returns false, with `axis` unchanged, if the cores do not overlap even then.
+/// ulps. The function moves B by `distance` + k_push in the direction opposite to `normal`, and finds the direction of
+/// least penetration there. Returns false, with `axis` unchanged, if the cores do not overlap even then.
 bool axis_by_pushing(const RestingPair& pair, const Vec32& normal, int32_t distance, ContactAxis& axis) {
   const int64_t push = int64_t{distance} + k_push;
   const Vec32 offset = subtract(pair.offset, scaled_vector(normal, push));
@@ -27,8 +27,8 @@ bool axis_by_pushing(const RestingPair& pair, const Vec32& normal, int32_t dista
   return true;
 }
 
-/// A core of a pair, with a cylinder made smaller: 1/8 of the lesser of radius and half length is subtracted from both.
-/// Other cores are unchanged.
+/// A copy of a placed core. If the core is a cylinder, the copy is smaller: 1/8 of the lesser of radius and half length
+/// is subtracted from both. Other cores are copied unchanged.
 class SmallerCore {
  public:
   explicit SmallerCore(const Placed& core) : convex_(*core.convex), placed_(core) {
@@ -44,7 +44,7 @@ class SmallerCore {
   SmallerCore& operator=(const SmallerCore&) = delete;
 
   const Placed& placed() const { return placed_; }
-  int32_t less() const { return less_; }  ///< ulps of the block
+  int32_t less() const { return less_; }  ///< the length subtracted, ulps of the block
 
  private:
   Convex convex_;
@@ -52,10 +52,11 @@ class SmallerCore {
   int32_t less_ = 0;
 };
 
-/// Finds the axis of two cores that overlap. Makes the cylinders smaller (SmallerCore) and takes the direction in which
-/// the smaller cores are apart, because penetration() needs many iterations for curved surfaces. Returns false, with
-/// `axis` unchanged, if neither core is a cylinder, if a core is a half-space, if the overlap is too deep for the
-/// smaller cores to be apart, or if a rim touches, because the smaller cores are then apart in another direction.
+/// Finds the axis of two cores that overlap, without penetration(), which needs many iterations for curved surfaces.
+/// Makes the cylinders smaller (SmallerCore) and takes the direction between the nearest points of the smaller cores.
+/// Returns false, with `axis` unchanged, in these cases: neither core is a cylinder; a core is a half-space; the
+/// overlap is so deep that the smaller cores are not apart; a rim touches, so that the overlap of the whole cores along
+/// this direction is larger than the least overlap.
 bool axis_of_smaller_cylinders(const RestingPair& pair, ContactAxis& axis) {
   const auto is_cylinder = [](const Placed& core) { return core.convex->type == ShapeType::cylinder; };
   if (pair.planar() || !(is_cylinder(pair.a) || is_cylinder(pair.b))) return false;
@@ -90,7 +91,7 @@ bool find_contact_axis(const RestingPair& pair, int32_t above, DistanceCache* ca
   if (capped && axis_by_pushing(pair, found.normal, found.upper, axis)) return true;
   const NearestPoints nearest = nearest_points(pair.a, pair.b, simplex);
   axis = {found.normal, found.upper, nearest.on_a, nearest.on_b, capped};
-  if (pair.planar()) {  // the point of the plane is the projection of the other core's point
+  if (pair.planar()) {  // the half-space's point is the projection of the other core's point onto the plane
     const Vec32 offset = subtract(add(pair.offset, axis.point_b), axis.point_a);
     const int64_t height = dot(axis.normal, offset) >> 30;
     if (pair.a.convex->type == ShapeType::half_space) {

@@ -4,8 +4,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The normal of a contact between two cores, and the points where they are nearest or overlap deepest. Lengths in ulps
-/// of the block.
+/// The normal of a contact between two cores, and the points where they are nearest or overlap deepest. Lengths are in
+/// ulps of the pair's block (distance/support.h).
 struct ContactAxis {
   Vec32 normal;            ///< from A to B, Q30
   int64_t separation;      ///< negative where the cores overlap
@@ -13,7 +13,8 @@ struct ContactAxis {
   bool capped;             ///< a search reached its cap: the normal may not be the direction of least penetration
 };
 
-/// Finds the contact axis. False if the cores are certain to be farther apart than `above` ulps.
+/// Sets `axis` to the contact axis of the pair's cores. Returns false if the cores are certainly farther apart than
+/// `above` ulps. `cache`: the vertices from which gjk() starts, updated; may be null.
 bool find_contact_axis(const RestingPair& pair, int32_t above, DistanceCache* cache, ContactAxis& axis);
 
 }  // namespace DETENT_NAMESPACE

@@ -9,7 +9,7 @@ inline namespace DETENT_NAMESPACE {
 
 struct TerrainContacts;
 
-/// The contacts of a pair in the last tick, in the order of their parts.
+/// The contacts of a pair in the last tick, in ascending order of ContactState::part.
 struct PairBefore {
   const ContactState* contacts;  ///< all contacts of the world
   const uint32_t* index;         ///< `count` indices of the pair's contacts in `contacts`
@@ -21,19 +21,20 @@ struct PairBefore {
 /// Returns how many points of `geometry` have a feature that also occurs in `contact`.
 uint32_t shared_features(const ContactGeometry& geometry, const ContactState& contact);
 
-/// Carries keys over from the contacts of the last tick, because a plane gets a new key when it tilts slightly or
-/// merges with another plane. A contact whose key is new takes the key of the contact of the last tick with which it
-/// shares the most features. Keys that a contact of this tick already has cannot be taken. A contact that shares no
-/// feature keeps its new key. Sorts the contacts by key.
+/// Carries keys over from the contacts of the last tick to those of this tick, because a plane gets a new key when it
+/// tilts slightly or merges with another plane. A contact of this tick whose key did not exist in the last tick takes
+/// the key of the contact of the last tick with which it shares the most features. It cannot take a key that another
+/// contact of this tick already has. A contact that shares no feature keeps its new key. Sorts the contacts by key.
 void continue_keys(const PairBefore& before, TerrainContacts& contacts);
 
-/// Makes the contact of this tick from its geometry and from the contact of the last tick, `before` (null if there was
-/// none). A point whose feature persists keeps its normal impulse; other points start at 0.
+/// Makes the state of a contact of this tick from its geometry and from its state in the last tick, `before` (null if
+/// there was none). A point whose feature also occurs in `before` keeps its normal impulse; the impulses of other
+/// points start at 0.
 ContactState continued_contact(uint32_t body_a, uint32_t body_b, uint32_t part, const ContactGeometry& geometry,
                                const ContactState* before);
 
-/// Removes the contacts of a body, and their manifolds if `manifolds` is not empty. Keeps the order of the rest.
-/// Returns the number of contacts left; the freed slots are set to zero.
+/// Removes the contacts of a body, and their manifolds if `manifolds` is not empty. The other contacts move to the
+/// front and keep their order; the elements after them are set to zero. Returns the number of contacts left.
 uint32_t remove_contacts(uint32_t body, Span<ContactState> contacts, Span<ManifoldState> manifolds);
 
 }  // namespace DETENT_NAMESPACE

@@ -2,8 +2,9 @@
 
 #include "math/root.h"
 
-// Widths: all points lie within 2^30 of the block's origin, so the difference of two points is below 2^31, and its
-// products with Q30 below 2^61. Cross products in the plane are below 2^62, also for corners moved outward by 1/64.
+// Bit widths: all points lie within 2^30 ulps of the block's origin, so the difference of two points is below 2^31, and
+// its product with a Q30 number below 2^61. Cross products in the plane are below 2^62, also for corners that are moved
+// outward by the slack.
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -12,10 +13,10 @@ namespace {
 constexpr int64_t k_no_limit = INT64_MAX / 2;
 constexpr int k_slack_power = 6;
 
-/// part / whole as Q30. Range: 0 <= part <= whole, whole > 0.
+/// Returns part / whole in Q30. Range: 0 <= part <= whole, whole > 0.
 int64_t fraction(int64_t part, int64_t whole) { return divide_rounded(Int128::product(part, k_one_64), whole); }
 
-/// Twice the signed area of the triangle p, q, r in the reference plane. Widths: |result| < 2^62.
+/// Returns twice the signed area of the triangle p, q, r in the reference plane; its magnitude is below 2^62.
 int64_t twice_area(const AreaPoint& p, const AreaPoint& q, const AreaPoint& r) {
   return (q.u - p.u) * (r.v - p.v) - (q.v - p.v) * (r.u - p.u);
 }
@@ -25,8 +26,9 @@ int64_t distance_squared(const AreaPoint& p, const AreaPoint& q) {
   return u * u + v * v;
 }
 
-/// The coordinate of a point along one of four diagonal directions, not normalised. The directions are rotated slightly
-/// from the diagonals of a square. So even a regular octagon or dodecagon has a single extreme point along each.
+/// Returns the coordinate of a point along one of four diagonal directions, which are not normalised. The directions
+/// are rotated slightly from the diagonals of a square. So even a regular octagon or dodecagon has a single extreme
+/// point along each direction.
 int64_t extent_along(const AreaPoint& p, int diagonal) {
   const int64_t along = (diagonal & 1) == 0 ? 4 * p.u + 5 * p.v : 4 * p.v - 5 * p.u;
   return diagonal < 2 ? along : -along;
@@ -121,8 +123,8 @@ Reference::Reference(const Placed& placed, const Vec32& centre, const Feature& f
     set_axes(feature.along);
     height_ = dot(up, subtract(add(centre, support(placed, up).point), origin_)) >> 30;
   } else {
-    // u and v are perpendicular to the normal, as for a face. Heights are then along the normal, however far away the
-    // other core is.
+    // The axes u and v are perpendicular to the contact normal, as for a face, although the edge may slope against the
+    // normal. So heights are measured along the normal, however far away the other core is.
     const Vec32 along = unit_vector_raw(scaled_to_30_bits(subtract(feature.point[1], feature.point[0])));
     set_axes(along);
     const int64_t run = dot(u_, along) >> 30;
@@ -198,7 +200,7 @@ void Reference::add_sides(const Vec32& centre, int32_t size, int64_t aside) {
 }
 
 void Reference::clip_edge(const Flat& p, const Flat& q, uint8_t from, bool closed, AreaChoice& choice) const {
-  int64_t enters = -1, leaves = k_one_64 + 1;  // parts of the edge, Q30
+  int64_t enters = -1, leaves = k_one_64 + 1;  // fractions of the edge's length, Q30
   int entered = -1, left = -1;
   for (int i = 0; i < side_count_; ++i) {
     const int64_t at_p = beyond(p, i), at_q = beyond(q, i), slack = slack_at(i);
@@ -216,8 +218,8 @@ void Reference::clip_edge(const Flat& p, const Flat& q, uint8_t from, bool close
     }
   }
   if (enters > leaves) return;
-  const int only = left < 0 ? entered : entered < 0 ? left : -1;  // the side that cuts the edge, if it is one
-  // The inner end stands for the crossing if it is near.
+  const int only = left < 0 ? entered : entered < 0 ? left : -1;  // the only side that cuts the edge, or -1
+  // If the end that is kept is within the slack of this side, the end is used in place of the crossing point.
   const bool near = only >= 0 && beyond(left < 0 ? q : p, only) >= -slack_at(only);
   const auto crossing = [&](int64_t t, int side, uint8_t end) {
     if (near) return;
@@ -225,7 +227,7 @@ void Reference::clip_edge(const Flat& p, const Flat& q, uint8_t from, bool close
     AreaPoint point = {between(p.u, q.u),         between(p.v, q.v), between(p.w, q.w), AreaPoint::Kind::crossing, from,
                        static_cast<uint8_t>(side)};
     // The sides with an index of feature_->count or more limit the lateral distance from a reference edge. A point
-    // clipped at one of them still counts as the end of the incident edge.
+    // where the incident edge is cut at such a side still counts as the end of the incident edge.
     if (side >= feature_->count) {
       point.kind = AreaPoint::Kind::vertex;
       point.incident = end;
@@ -242,10 +244,11 @@ void Reference::clip_edge(const Flat& p, const Flat& q, uint8_t from, bool close
     choice.add({q.u, q.v, q.w, AreaPoint::Kind::vertex, static_cast<uint8_t>(from + 1), 0});
 }
 
-/// Adds the corners of the reference face that lie over the incident face. For this test, the corners are moved outward
-/// with the sides.
+/// Adds the corners of the reference face that lie over the incident face, given by its vertices `points`. For this
+/// test only, the corners are moved outward by the slack.
 void Reference::offer_corners(const Flat* points, const Feature& incident, AreaChoice& choice) const {
-  constexpr int64_t k_edge_on = k_one_64 >> 6;  // an incident face closer to edge-on than this, rad, is over no corner
+  // rad; an incident face that is seen edge-on within this angle is over no corner
+  constexpr int64_t k_edge_on = k_one_64 >> 6;
   const int64_t nu = dot(incident.normal, u_) >> 30, nv = dot(incident.normal, v_) >> 30,
                 nw = dot(incident.normal, up_) >> 30;
   if (nw > -k_edge_on) return;
@@ -266,9 +269,9 @@ void Reference::offer_corners(const Flat* points, const Feature& incident, AreaC
       inside = (q.u - p.u) * (v - p.v) - (q.v - p.v) * (u - p.u) <= 0;
     }
     if (!inside) continue;
-    // The height is taken at the corner's own place, not where it is moved outward. The corner may lie beside a steep
-    // incident face, where the plane of that face is lower than the face itself. The height is therefore set to at
-    // least that of the lowest vertex.
+    // The height of the incident plane is taken over the corner itself, not over the moved corner. The corner may lie
+    // beside a steep incident face, where the plane of that face is lower than all of its vertices. The height is
+    // therefore raised to at least that of the lowest vertex.
     const int64_t plane = (nu * (points[0].u - corner.u) + nv * (points[0].v - corner.v)) / nw + points[0].w;
     choice.add(
         {corner.u, corner.v, plane < lowest ? lowest : plane, AreaPoint::Kind::corner, 0, static_cast<uint8_t>(i)});
@@ -291,8 +294,8 @@ void Reference::clip(const Vec32& centre, const Feature& incident, AreaChoice& c
 
 Vec64 Reference::twice_middle(const AreaPoint& point) const {
   const bool is_edge = feature_ != nullptr && !feature_->is_face();
-  // On a reference edge, the reference's point has v = 0, and the other shape's point has the coordinate v. The
-  // midpoint is therefore at v / 2.
+  // A point of a reference edge has v = 0, and the point of the other shape has the coordinate point.v. The midpoint is
+  // therefore at point.v / 2.
   const int64_t u = 2 * point.u, v = is_edge ? point.v : 2 * point.v;
   const int64_t w = 2 * (height_ + ((point.u * slope_) >> 30)) + point.w;
   const auto component = [&](int32_t o, int32_t a, int32_t b, int32_t c) {

@@ -8,8 +8,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Cylinder and cone: the index of the line on the round side, and also the name of that line's upper end. The names 0
-/// to 15 are rim corners.
+/// Cylinder and cone: the index of the edge that is a line on the round side, and also the name of this line's upper
+/// end; its lower end has the next name. The names 0 to 15 are corners of the octagons in the rims.
 constexpr uint32_t k_line = 16;
 /// The first index of the edges that belong to an outline (find_outline()) but not to the hull. Edges of the hull have
 /// lower indices: a hull has at most 759.
@@ -23,7 +23,7 @@ constexpr Vec32 k_eighth[8] = {
     {k_one, 0, 0},  {k_diagonal, 0, k_diagonal},   {0, 0, k_one},  {-k_diagonal, 0, k_diagonal},
     {-k_one, 0, 0}, {-k_diagonal, 0, -k_diagonal}, {0, 0, -k_one}, {k_diagonal, 0, -k_diagonal}};
 
-/// The flat side at the top or bottom of a cylinder or cone.
+/// Sets `face` to the flat side at the top or bottom of a cylinder or cone: an octagon inscribed in its rim.
 void round_face(const Placed& placed, bool bottom, Feature& face) {
   for (int n = 0; n < 8; ++n) {
     const int i = bottom ? n : 7 - n;  // from x to z is clockwise as seen from above
@@ -66,7 +66,7 @@ struct VertexPolygon {
   uint8_t vertex[k_feature_points_max];
 };
 
-/// Returns the vertices whose coordinate along `direction` (Q30) is smaller than the greatest one by at most `room`.
+/// Returns the vertices whose coordinate along `direction` (Q30) is at most `room` below the greatest coordinate.
 VertexSet level_along(const HullView& hull, const Vec32& direction, int64_t room) {
   const HullHeights heights(hull, direction);
   const int64_t slack = room * k_one;
@@ -101,7 +101,8 @@ VertexSet level_along(const HullView& hull, const Vec32& direction, int64_t room
   return level;
 }
 
-/// The normal of a polygon, with a length of twice its area. Widths: below 2^63, because all vertices lie within 2^30.
+/// Returns a normal of a polygon; its length is twice the polygon's area. Each component is below 2^63, because all
+/// vertices lie within 2^30 of the origin.
 Vec64 area_vector(const HullView& hull, const uint8_t* polygon, uint32_t count) {
   Vec64 sum = {0, 0, 0};
   const Vec32 from = hull.vertex(polygon[0]);
@@ -112,7 +113,8 @@ Vec64 area_vector(const HullView& hull, const uint8_t* polygon, uint32_t count) 
   return sum;
 }
 
-/// Makes a polygon of the vertices of a set that are farthest along 32 directions perpendicular to a normal.
+/// Sets `polygon` to the outline of a set of vertices, as seen along a normal: those vertices that are farthest along
+/// one of 32 directions perpendicular to the normal.
 void find_outline(const HullView& hull, const Vec32& normal, const VertexSet& set, VertexPolygon& polygon) {
   constexpr int32_t k_sine[9] = {0, 195, 383, 556, 707, 831, 924, 981, 1000};
   const Vec32 u = unit(cross(normal, magnitude_32(normal.x) < (1u << 29) ? Vec32{k_one, 0, 0} : Vec32{0, k_one, 0}));
@@ -126,7 +128,7 @@ void find_outline(const HullView& hull, const Vec32& normal, const VertexSet& se
     const int64_t right = dot(u, at) >> 30, up = dot(w, at) >> 30;
     for (int part = 0; part < 8; ++part) {
       const int32_t c = k_sine[8 - part], s = k_sine[part];
-      int64_t margin = right * c + up * s, next = up * c - right * s;  // along directions at a right angle
+      int64_t margin = right * c + up * s, next = up * c - right * s;  // along two directions at a right angle
       for (int i = part; i < k_feature_points_max; i += 8) {
         if (margin > most[i]) {
           most[i] = margin;
@@ -179,15 +181,15 @@ int32_t hull_half_thickness(const HullView& hull) {
   return most > 0 ? static_cast<int32_t>(most) : 0;
 }
 
-/// A vertex is level with the farthest vertex along a direction if its coordinate is smaller by at most 2^-k_even_power
-/// of the half thickness.
+/// A vertex is level with the farthest vertex along a direction if it is lower than that vertex by at most
+/// 2^-k_even_power of the half thickness.
 constexpr int k_even_power = 6;
-/// A single face is the contact feature if its area is at least 1 - 2^-k_beyond_power of the area of the whole region
-/// level with it. Otherwise the region is the contact feature.
+/// A single face is the contact feature if its area is at least 1 - 2^-k_beyond_power of the area of the region that
+/// consists of all vertices level with it. Otherwise this region is the contact feature.
 constexpr int k_beyond_power = 2;
-constexpr int k_even_rounds_max = 4;  ///< rounds in which the region level with a face may grow
+constexpr int k_even_rounds_max = 4;  ///< find_even(): rounds in which the region level with a face is recomputed
 
-/// Finds the faces that contain at least one vertex of `vertices`.
+/// Adds the faces that contain at least one vertex of `vertices` to the set `faces`.
 void find_faces(const HullView& hull, const VertexSet& vertices, BitSet faces) {
   const uint8_t* ends = hull.bytes + hull.at.edges;
   for (uint32_t i = 0; i < hull.edge_count; ++i, ends += k_hull_edge_bytes) {
@@ -199,7 +201,8 @@ void find_faces(const HullView& hull, const VertexSet& vertices, BitSet faces) {
   }
 }
 
-/// Returns the face with the most vertices of `level`; among equal faces, the one whose normal is closest to `d`.
+/// Returns the face of `faces` with the most vertices in `level`. If several faces have as many, returns the one whose
+/// normal is closest to `d`.
 uint32_t face_along(const HullView& hull, const Vec32& d, const VertexSet& level, BitSet faces) {
   uint32_t best = 0, most = 0;
   int64_t steepest = INT64_MIN;
@@ -230,8 +233,9 @@ Vec32 normal_about(const HullView& hull, uint32_t face, BitSet faces) {
   return is_zero(sum) ? normal : unit(sum);
 }
 
-/// Finds the region level with a face, as one polygon, if it is larger than the face. `normal`: on entry,
-/// normal_about() of the face; on return, the normal of the polygon. False if the face should be used by itself.
+/// Sets `polygon` to the outline of all vertices that are level with a face, within `room`. `normal`: on entry,
+/// normal_about() of the face; on return, the normal of the polygon. Returns false if the face alone should be used,
+/// because its area is most of the outline's area (k_beyond_power), or because no other vertex is level with it.
 bool find_even(const HullView& hull, uint32_t face, int64_t room, VertexPolygon& polygon, Vec32& normal) {
   const HullIndices loop = hull.face(face);
   uint32_t before = 0;
@@ -327,7 +331,7 @@ void round_line(const Placed& placed, const Vec32& d, Feature& edge) {
   edge.index = k_line;
 }
 
-/// The vertex `v` of a core that has vertices.
+/// Returns the vertex `v` of a core that has vertices, in the shape's axes.
 Vec32 vertex_of(const Placed& placed, uint32_t v) {
 #if !defined(__OPTIMIZE_SIZE__)
   if (placed.convex->type == ShapeType::hull) return placed.hull.vertex(v);

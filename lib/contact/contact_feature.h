@@ -5,16 +5,16 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A feature has a 12-bit name within its shape, which is never 0.
+/// The type of a feature. A feature has a 12-bit name, which is distinct within its shape and never 0.
 enum class FeatureType : uint32_t { vertex = 1, edge = 2, face = 3 };
 constexpr uint32_t feature_name(FeatureType kind, uint32_t index) { return static_cast<uint32_t>(kind) << 10 | index; }
 
-/// The name of a contact between a feature of A and a feature of B.
+/// The key of a contact point between a feature of A and a feature of B, from the names of the two features.
 constexpr uint32_t feature_pair(uint32_t on_a, uint32_t on_b) { return on_a | on_b << 12; }
 
 inline constexpr int k_feature_points_max = 32;
 
-/// A flat convex polygon (its points counter-clockwise from outside), an edge or a vertex of a placed core.
+/// A face, an edge or a vertex of a placed core. A face is a convex polygon, counter-clockwise seen from outside.
 struct Feature {
   int count = 0;                         ///< number of points: 1 for a vertex, 2 for an edge
   Vec32 point[k_feature_points_max];     ///< in the block, from the core's centre
@@ -31,21 +31,22 @@ struct Feature {
   }
 };
 
-/// Finds the core's face in `direction` (world, Q30). Candidates are the faces with the greatest number of vertices
-/// that are about as far along `direction` as the farthest point. The face found is the candidate whose normal is
-/// closest to `direction`. False if there is none: on the round side of a cylinder or cone, and for a core that is a
-/// point or a segment. `thickness`: core_half_thickness(). The flat side of a cylinder or cone is represented by an
-/// octagon inscribed in its rim. On a hull, points that are level with the face within 1/64 of the thickness belong to
-/// the face.
+/// Sets `face` to the core's face in `direction` (world axes, Q30). Candidates are the faces with the greatest number
+/// of vertices that are about as far along `direction` as the farthest point. The result is the candidate whose normal
+/// is closest to `direction`. Returns false if there is no face: on the round side of a cylinder or cone, and for a
+/// core that is a point or a segment. `thickness`: core_half_thickness(). The flat side of a cylinder or cone is
+/// represented by an octagon inscribed in its rim. On a hull, points that are level with the face within 1/64 of
+/// `thickness` belong to the face.
 bool supporting_face(const Placed& placed, const Vec32& direction, int32_t thickness, Feature& face);
 
-/// Finds the core's edge in `direction`: of the edges at the farthest point, the edge most perpendicular to
-/// `direction`. On the round side of a cylinder or cone, this is the line that a tangent plane touches. If the slope of
-/// that edge (dot product of its unit vector and `direction`, Q30) exceeds `slope_max`, or if there are no edges, the
-/// result is the farthest vertex.
+/// Sets `edge` to the core's edge in `direction` (world axes, Q30): of the edges at the farthest point, the edge most
+/// perpendicular to `direction`. On a cylinder or cone, this is the line of the round side that a tangent plane
+/// touches. If the slope of the edge (the magnitude of the dot product of its unit vector and `direction`, Q30) exceeds
+/// `slope_max`, or if there are no edges, sets `edge` to the farthest vertex.
 void supporting_edge(const Placed& placed, const Vec32& direction, int64_t slope_max, Feature& edge);
 
-/// The index of the edge between two vertices, which are neighbours in a face or the ends of an edge.
+/// Returns the index of the edge between two vertices, given by their names. They are neighbours in a face, or the ends
+/// of an edge.
 uint32_t edge_index(const Placed& placed, uint32_t vertex_a, uint32_t vertex_b);
 
 /// Converts a length of the core to ulps of the block, rounded down.
@@ -54,11 +55,11 @@ DETENT_SHARED inline int32_t in_block(const Placed& placed, int32_t length) {
   return length == 0 || placed.shift > 30 ? 0 : length >> placed.shift;
 }
 
-/// The half thickness of the core, ulps of the core. Box, cylinder and cone: the least half extent. Hull: the value
-/// stored in the Convex, if any; else the least distance of a face from the frame's origin or from the mean of the
-/// vertices, whichever is greater. Other cores: the core radius.
+/// Returns the half thickness of the core, in 2^-30 of the shape's own unit. Box, cylinder and cone: the least half
+/// extent. Hull: the value stored in the Convex, if any; else the least distance of a face from a centre, which is the
+/// frame's origin or the mean of the vertices, whichever gives the greater value. Other cores: the core radius.
 int32_t core_half_thickness(const Placed& placed);
-/// The half thickness of the core in ulps of the block, rounded down.
+/// Returns the half thickness of the core in ulps of the block, rounded down.
 int32_t half_thickness(const Placed& placed);
 
 }  // namespace DETENT_NAMESPACE

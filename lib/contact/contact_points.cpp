@@ -10,13 +10,15 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The contact is made on a face, not on edges or on the axis itself, if the separation of the cores along the face
-/// normal is smaller than along the axis by at most 1/64 of the half thickness of the thinner core.
+/// The contact is made on a face, not on edges or on the contact axis itself, if the face separates the cores nearly as
+/// well as the axis does: the separation along the face's normal is smaller than that along the axis by at most 1/64 of
+/// the half thickness of the thinner core.
 constexpr int k_face_power = 6;
-constexpr int k_aside_power = 5;            ///< lateral limit for edges: 2^-5 of the thinner half thickness
-constexpr int64_t k_upright = k_one >> 13;  ///< rad; an axis this close to a face normal is replaced by the face normal
-constexpr int64_t k_level = k_one >> 5;     ///< edges closer to parallel than this, rad, touch along a line
+constexpr int k_aside_power = 5;            ///< lateral limit for two edges: 2^-5 of the thinner shape's half thickness
+constexpr int64_t k_upright = k_one >> 13;  ///< rad, Q30; the normal of a face replaces an axis this close to it
+constexpr int64_t k_level = k_one >> 5;     ///< rad, Q30; edges closer to parallel than this touch along a line
 
+/// Returns the smaller of two lengths, but the other if one of them is 0.
 int64_t smaller_but_0(int64_t a, int64_t b) { return a == 0 ? b : b == 0 || a < b ? a : b; }
 int32_t radius_in_block(const Placed& placed) { return in_block(placed, placed.convex->core_radius); }
 
@@ -26,10 +28,10 @@ bool is_parallel(const Vec32& a, const Vec32& b, int64_t limit) {
   return dot(sine, sine) <= limit * limit;
 }
 
-/// a + b, saturated. Both may have any sign.
+/// Returns a + b, saturated at +-INT64_MAX. Both may have any sign.
 int64_t saturated(int64_t a, int64_t b) { return b < 0 ? -saturated_sum(-a, -b) : saturated_sum(a, b); }
 
-/// The index of the chosen point that is nearest to `place` in the reference plane.
+/// Returns the index of the chosen point that is nearest to `place` in the reference plane.
 int nearest_to(const AreaPoint& place, const AreaChoice& choice) {
   int nearest = 0;
   for (int i = 1; i < choice.count(); ++i)
@@ -37,12 +39,12 @@ int nearest_to(const AreaPoint& place, const AreaChoice& choice) {
   return nearest;
 }
 
-/// One of the two shapes, and the direction of the other. Several functions need the face and the edge along `outward`;
-/// the name and normal of the face and the name of the edge are stored when they are first found.
+/// One of the two shapes, and the direction to the other. Several functions need the face and the edge along `outward`.
+/// The name and normal of the face and the name of the edge are therefore stored when they are first found.
 struct Half {
   const Placed& placed;
   Vec32 centre;                    ///< in the block
-  Vec32 outward;                   ///< the axis towards the other shape, Q30
+  Vec32 outward;                   ///< the contact axis, towards the other shape, Q30
   int32_t thickness;               ///< core_half_thickness()
   mutable uint32_t face_name = 0;  ///< 0: not yet searched for; k_no_face: there is none
   mutable Vec32 face_normal = {0, 0, 0};
@@ -57,15 +59,15 @@ struct Half {
     if (found) face_normal = face.normal;
     return found;
   }
-  /// supporting_edge() along `outward`, with the slope k_level.
+  /// supporting_edge() along `outward`, with a slope of at most k_level.
   void find_edge(Feature& edge) const {
     supporting_edge(placed, outward, k_level, edge);
     edge_name = edge.name();
   }
 };
 
-/// core_half_thickness() of B, given that of A. For a hull the computation is a loop over the faces, so two bodies with
-/// the same hull share the result.
+/// Returns core_half_thickness() of B, given that of A. For a hull the computation is a loop over the faces. If A and B
+/// have the same hull, the result is therefore taken from A.
 int32_t thickness_of_b([[maybe_unused]] const RestingPair& pair, [[maybe_unused]] int32_t of_a) {
 #if !defined(__OPTIMIZE_SIZE__)
   const uint8_t* hull = pair.a.hull.bytes;
@@ -74,6 +76,7 @@ int32_t thickness_of_b([[maybe_unused]] const RestingPair& pair, [[maybe_unused]
   return core_half_thickness(pair.b);
 }
 
+/// Builds the manifold of two cores from their contact axis.
 class Builder {
  public:
   Builder(const RestingPair& pair, const ContactAxis& axis, const ContactRules& rules)
@@ -113,9 +116,9 @@ class Builder {
   bool fill(const Reference& reference, bool reference_is_a, const Feature& incident, BlockManifold& manifold) const;
   void add_point(const Vec32& normal, const Vec64& twice_middle, int64_t separation, uint32_t on_a, uint32_t on_b,
                  BlockManifold& manifold) const;
-  /// Whether A is preferred where a feature of either shape could be the reference. The preferred shape is the one that
-  /// lies lower along a fixed direction, which is unlikely to be parallel to an axis of a shape. The result does not
-  /// depend on which shape is called A.
+  /// Whether A's feature, not B's, is tried first as the reference. The preferred shape is the one that lies lower
+  /// along a fixed direction, which is unlikely to be parallel to an axis of a shape. So the choice does not depend on
+  /// which shape is called A.
   bool a_comes_first() const { return dot(axis_.normal, Vec32{493921240, 848256040, 440234144}) > 0; }
   static void find_incident(const Half& half, const Vec32& towards, Feature& incident) {
     if (!supporting_face(half.placed, towards, half.thickness, incident))
@@ -127,17 +130,17 @@ class Builder {
   const ContactRules& rules_;
   Half half_a_, half_b_;
   int64_t preference_, drop_;
-  bool only_over_ = false;  ///< points that are not over the reference are left out
+  bool only_over_ = false;  ///< the point on the axis is left out if it is not over the reference
 };
 
-/// Whether the separation of the cores along `normal` is at least their separation along the axis minus preference_.
+/// Whether `normal` (outward from `half`) separates the cores as well as the axis, to within preference_.
 bool Builder::parts_as_well(const Half& half, const Half& other, const Vec32& normal) const {
   const Vec32 top = add(half.centre, support(half.placed, normal).point);
   const Vec32 bottom = add(other.centre, support(other.placed, negate(normal)).point);
   return dot(normal, subtract(bottom, top)) >> 30 >= axis_.separation - preference_;
 }
 
-/// Finds the face of `half` on which the contact lies. Returns false if there is none.
+/// Sets `face` to the face of `half` on which the contact lies. Returns false if the contact lies on no face of `half`.
 bool Builder::find_face(const Half& half, const Half& other, Feature& face) const {
   if (!half.find_face(face)) return false;
   const Vec32& normal = face.normal;
@@ -162,8 +165,8 @@ void Builder::add_point(const Vec32& normal, const Vec64& twice_middle, int64_t 
   Vec64 from_a = {component(m.x, normal.x), component(m.y, normal.y), component(m.z, normal.z)};
   Vec64 from_b = {component(m.x - 2 * int64_t{o.x}, normal.x), component(m.y - 2 * int64_t{o.y}, normal.y),
                   component(m.z - 2 * int64_t{o.z}, normal.z)};
-  // A half-space's position may be too far away to be represented in the block. Its arm is therefore the other body's
-  // arm plus the offset of the positions in 2^-46 m.
+  // A half-space's position may be too far away to be represented in the block. The vector from this position to the
+  // point is therefore computed from the other body's vector and the offset of the positions, in 2^-46 m.
   const Vec64& shift = pair_.offset_metres;
   if (pair_.a.convex->type == ShapeType::half_space)
     from_a = {saturated(from_b.x, shift.x), saturated(from_b.y, shift.y), saturated(from_b.z, shift.z)};
@@ -172,8 +175,8 @@ void Builder::add_point(const Vec32& normal, const Vec64& twice_middle, int64_t 
   manifold.point[manifold.count++] = {from_a, from_b, separation, feature_pair(on_a, on_b)};
 }
 
-/// Returns the name of the shape's feature where the axis meets the shape. If a face is perpendicular to the axis, only
-/// rounding would decide between its edges; the face is named instead.
+/// Returns the name of the shape's feature where the axis meets the shape. If a face is perpendicular to the axis, the
+/// result is the face, because only rounding would decide between its edges.
 uint32_t Builder::name_on_axis(const Half& half) {
   Feature feature;
   if (half.face_name == 0) half.find_face(feature);
@@ -183,7 +186,7 @@ uint32_t Builder::name_on_axis(const Half& half) {
   return half.edge_name;
 }
 
-/// Adds the contact point on the axis itself.
+/// Adds the contact point on the axis itself: midway between axis_.point_a and point_b.
 void Builder::add_on_axis(const Vec32& normal, int64_t separation, BlockManifold& manifold) const {
   const uint32_t on_a = name_on_axis(half_a_), on_b = name_on_axis(half_b_);
   const Vec32 &a = axis_.point_a, &b = axis_.point_b, &offset = pair_.offset;
@@ -194,8 +197,8 @@ void Builder::add_on_axis(const Vec32& normal, int64_t separation, BlockManifold
             on_b, manifold);
 }
 
-/// Adds contact points of the contact area of `reference` and `incident`. Returns false if none is within the contact
-/// margin.
+/// Clips `incident` against `reference` and adds the chosen corners of the contact area to the manifold. Returns false
+/// if no point is within the contact margin.
 bool Builder::fill(const Reference& reference, bool reference_is_a, const Feature& incident,
                    BlockManifold& manifold) const {
   const Half& other = reference_is_a ? half_b_ : half_a_;
@@ -223,7 +226,8 @@ bool Builder::fill(const Reference& reference, bool reference_is_a, const Featur
     const uint32_t on_incident = reference.name_on_incident(other.placed, incident, point);
     const uint32_t on_a = reference_is_a ? on_reference : on_incident;
     const uint32_t on_b = reference_is_a ? on_incident : on_reference;
-    // Features are distinct: the point on the axis, which is deeper, may have the same.
+    // The features of a manifold must be distinct. The point on the axis is deeper, so a point with the same features
+    // is left out.
     if (!missed || manifold.point[0].feature != feature_pair(on_a, on_b))
       add_point(normal, reference.twice_middle(point), separation, on_a, on_b, manifold);
   }
@@ -253,10 +257,10 @@ bool Builder::build_on_face(BlockManifold& manifold) const {
 }
 
 /// Finds the contact on a face that is slightly tilted against the axis. Crossing edges would instead touch in one
-/// point, which can jump from one side of the face to the other between two ticks. The cores must be at most
-/// preference_ apart. The face normal must be within 2^-3 rad of the axis. The face must have at least two points. The
-/// separation of its deepest point must be larger by at most drop_, or smaller by at most preference_, than that along
-/// the axis. Beyond the sides of the face an edge may reach any depth.
+/// point, which can jump from one side of the face to the other between two ticks. Returns false unless all of these
+/// conditions hold. The cores are at most preference_ apart. The face normal is within 2^-3 rad of the axis. The face
+/// has at least two contact points. The separation of the deepest point is larger than that along the axis by at most
+/// drop_, or smaller by at most preference_. How deep an edge lies beyond the sides of the face does not matter.
 __attribute__((noinline)) bool Builder::build_on_leaning_face(BlockManifold& manifold) const {
   constexpr int64_t k_leaning = (int64_t{1} << 60) - (int64_t{1} << 53);  // 2^-3 rad
   const int64_t radii = pair_.radius_a + pair_.radius_b;
@@ -267,7 +271,7 @@ __attribute__((noinline)) bool Builder::build_on_leaning_face(BlockManifold& man
   for (int attempt = 0; attempt < 2; ++attempt, is_a = !is_a) {
     const Half &half = is_a ? half_a_ : half_b_, &other = is_a ? half_b_ : half_a_;
     Feature face, incident;
-    // build_on_face() has searched for the face.
+    // build_on_face() has already searched for the face and stored its name and normal.
     if (half.face_name >> 10 != static_cast<uint32_t>(FeatureType::face)) continue;
     if (dot(half.face_normal, half.outward) < k_leaning || !half.find_face(face)) continue;
     find_incident(other, negate(face.normal), incident);
@@ -297,16 +301,16 @@ bool Builder::build_on_edge(BlockManifold& manifold) const {
   if (is_zero(along_a) || is_zero(along_b) || !is_parallel(along_a, along_b, k_level)) return false;
   const bool is_a = a_comes_first();
   const Half &half = is_a ? half_a_ : half_b_, &other = is_a ? half_b_ : half_a_;
-  // `aside` allows for two effects. Edges that cross at a small angle lie beside each other away from their crossing,
-  // and the normal is not exact enough for long edges to lie exactly over each other.
+  // `aside` allows for two effects. Edges that cross at a small angle are offset sideways away from their crossing. And
+  // the normal is not exact enough for long edges to lie exactly over each other.
   const int64_t aside = (pair_.block_above(thickness()) >> k_aside_power) + drop_;
   const Reference reference(half.placed, half.centre, is_a ? edge_a : edge_b, half.outward,
                             radius_in_block(other.placed), aside);
   return fill(reference, is_a, is_a ? edge_b : edge_a, manifold);
 }
 
-/// If find_level_face() finds a face that is level with the contact of a round shape, makes the contact with the normal
-/// of that face. Otherwise returns false.
+/// If find_level_face() (contact_seam.h) finds a face that is level with the contact of a round shape, adds the contact
+/// point with the normal of this face, and returns true. Otherwise returns false.
 bool Builder::build_level_with_face(BlockManifold& manifold) const {
   ContactAxis level = axis_;
   const int64_t room = thickness() >> 5;  // small shapes penetrate less
@@ -347,8 +351,8 @@ void Builder::build_over_face(const Feature& face, BlockManifold& manifold) {
   only_over_ = true;
   Feature incident;
   find_incident(half_b_, negate(face.normal), incident);
-  // The slack at the sides is proportional to the shape's radius including its ball. Otherwise a ball, whose core is a
-  // point, would have no slack and might fall between two faces.
+  // The slack at the sides is proportional to the shape's radius, including the ball that rounds it. Otherwise a
+  // sphere, whose core is a point, would have no slack and might fall between two faces.
   const int64_t size = int64_t{radius_in_block(pair_.b)} + pair_.block_above(pair_.radius_b);
   const int32_t held = size > k_one ? k_one : static_cast<int32_t>(size);
   fill(Reference(pair_.a, half_a_.centre, face, face.normal, held), true, incident, manifold);

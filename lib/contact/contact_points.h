@@ -7,29 +7,30 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The deepest point is chosen too if it is deeper than all chosen points by more than 2^-k_drop_power of the smaller
-/// core's radius.
+/// The deepest point of the contact area is always chosen if it is deeper than all other chosen points by more than
+/// 2^-k_drop_power of the smaller core's bounding radius.
 inline constexpr int k_drop_power = 10;
 
-/// A ManifoldPoint in integers: lengths in 2^-46 m, in the pair's axes.
+/// A ManifoldPoint in integers. Lengths are in 2^-46 m, vectors in the axes of the pair's block.
 struct BlockPoint {
   Vec64 from_a, from_b;
   int64_t separation;
   uint32_t feature;
 };
+/// A ContactManifold in integers.
 struct BlockManifold {
   Vec32 normal = {};  ///< from A to B, Q30; zero if there are no points
   uint32_t count = 0;
   bool capped = false;
-  bool leans = false;  ///< the normal is that of a face that is tilted against the axis
+  bool leans = false;  ///< two edges cross, and the normal is that of a face slightly tilted against the contact axis
   bool seam = false;   ///< the contact lies at a seam: it was removed, or its normal was replaced
-  bool turns = false;  ///< the normal belongs to no face: it rotates as a round shape slides past the other shape
+  bool turns = false;  ///< no face and no two crossing edges fix the normal: it rotates as the shapes slide
   BlockPoint point[k_contact_points_max];
 };
 
-/// Index of the point with the least separation; 0 if there are no points.
+/// Returns the index of the point with the least separation; 0 if there are no points.
 uint32_t deepest_point(const BlockManifold& manifold);
-/// The least separation of the points, 2^-46 m; INT64_MAX if there are none.
+/// Returns the least separation of the points, 2^-46 m; INT64_MAX if there are none.
 int64_t least_separation(const BlockManifold& manifold);
 
 /// The rules by which contact points are found. Lengths in 2^-46 m.
@@ -37,31 +38,30 @@ struct ContactRules {
   int64_t margin;  ///< contact margin: the greatest separation of a point
   int64_t sunk;    ///< typical penetration of resting bodies
   ManifoldReduction reduction;
-  bool leans;         ///< where edges cross, the normal may be that of a slightly tilted face
-  bool smooth_seams;  ///< slivers are left out, and edges level with a face count as the face: contact_seam.h
+  bool leans;         ///< where two edges cross, the normal of a slightly tilted face may replace their normal
+  bool smooth_seams;  ///< as ContactMargins::smooth_seams
 };
 inline ContactRules rules_of(int64_t margin, ManifoldReduction reduction) {
   return {margin, 0, reduction, true, false};
 }
 
-/// As contact_points(), but in integers: the pair is in block floating point (RestingPair), and the result is in
-/// 2^-46 m.
+/// As contact_points(), but in integers: the pair is placed in its block (RestingPair), and the result is in 2^-46 m.
 void find_contact_points(const RestingPair& pair, const ContactRules& rules, DistanceCache* cache,
                          BlockManifold& manifold);
 
-/// Properties of a contact, as the fields of the same names in BlockManifold.
+/// Properties of a contact; their meaning is that of the members of BlockManifold with the same names.
 struct ContactKind {
   bool seam = false, turns = false;
 };
 
-/// As contact_points(), but `rules` give the contact margin and the reduction. Also returns the kind of the contact.
+/// As contact_points(), but by any `rules`, which include the contact margin and the reduction. Also sets `kind`.
 Status contact_points_by(const ContactRules& rules, const Convex& a, const Pose& pose_a, const Convex& b,
                          const Pose& pose_b, DistanceCache* cache, ContactManifold& manifold, ContactKind& kind);
 
-/// Finds the contact points between A's `face` and the feature of B that is farthest against the face's normal. The
-/// contact normal is the face's normal. Only points over the face are found, or beyond its sides by at most the slack
-/// of Reference (contact_clip.h) for the bounding radius of B; there may be none. The function makes no search, so the
-/// result is never capped.
+/// Finds the contact points between A's `face` and the feature of B that is farthest in the direction opposite to the
+/// face's normal. The contact normal is the face's normal. The function finds only points that are over the face, or
+/// beyond its sides by at most the slack of Reference (contact_clip.h) for the bounding radius of B; there may be none.
+/// It makes no search, so the result is never capped.
 void contact_points_over_face(const RestingPair& pair, const Feature& face, int64_t margin, ManifoldReduction reduction,
                               BlockManifold& manifold);
 

@@ -4,7 +4,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int k_normals_max = 8;  ///< the most faces near a point; further faces are ignored
+constexpr int k_normals_max = 8;  ///< the greatest number of faces near a point; further faces are ignored
 
 /// Outward normals of the faces near a point of a shape.
 struct NearFaces {
@@ -16,7 +16,8 @@ struct NearFaces {
   }
 };
 
-/// The flat faces of the core whose planes are at most `room` beyond the point. Lengths in ulps of the block.
+/// Returns the flat faces of the core whose planes pass at most `room` outside `point`, which is relative to the core's
+/// centre. Lengths are in ulps of the block.
 NearFaces faces_about(const Placed& placed, const Vec32& point, int64_t room) {
   NearFaces near;
   const Convex& convex = *placed.convex;
@@ -56,8 +57,8 @@ NearFaces faces_about(const Placed& placed, const Vec32& point, int64_t room) {
   return near;
 }
 
-/// Returns the separation of the cores along `normal` (from A to B), ulps of the block. Sets the normal, the points and
-/// the separation of `axis`.
+/// Returns the separation of the cores along `normal` (from A to B), ulps of the block. Sets `axis` to this normal, the
+/// separation, and the points of the cores that are farthest along it.
 int64_t apart_along(const RestingPair& pair, const Vec32& normal, ContactAxis& axis) {
   axis.normal = normal;
   axis.point_a = support(pair.a, normal).point;
@@ -71,7 +72,8 @@ int64_t apart_along(const RestingPair& pair, const Vec32& normal, ContactAxis& a
 __attribute__((noinline)) bool is_sliver(const RestingPair& pair, const ContactAxis& axis, int64_t room) {
   const int64_t radii = pair.radius_a + pair.radius_b, gap = pair.metres(axis.separation) - radii;
   if (gap < -room) return false;
-  // The nearest points are up to the gap farther from the faces than the points at which sliding shapes will touch.
+  // While the shapes are apart, their nearest points may be farther from the faces than the points at which the shapes
+  // will touch: by up to the gap.
   const int64_t about = pair.block_above(gap > 0 ? room + gap : room);
   const NearFaces of_a = faces_about(pair.a, axis.point_a, about);
   if (of_a.count == 0) return false;
@@ -107,8 +109,8 @@ __attribute__((noinline)) bool find_level_face(const RestingPair& pair, int64_t 
       const Vec32 normal = side == 0 ? near.normal[i] : negate(near.normal[i]);
       ContactAxis level = axis;
       if (dot(normal, axis.normal) < k_alike || !is_level(apart_along(pair, normal, level))) continue;
-      // The contact point is placed on the line along the face normal through the core's point of the round shape.
-      // Beside this line, the contact would exert a torque on a ball.
+      // The contact point is placed on the line along the face normal through the round shape's core point. If it lay
+      // beside this line, the contact would exert a torque on a ball.
       const Vec64 offset = {normal.x * level.separation, normal.y * level.separation, normal.z * level.separation};
       const Vec32 across = round_shift(offset, 30);
       if (side == 0)

@@ -12,7 +12,7 @@ inline namespace DETENT_NAMESPACE {
 struct PairPoint {
   Vec3<Unit> point;  ///< midway between the surfaces
   Unit separation;   ///< along the normal; negative when overlapping
-  uint32_t feature;  ///< name of the touching pair of features: distinct, the same while they touch, never 0
+  uint32_t feature;  ///< key of the two features that touch: distinct in a manifold, constant while they touch, not 0
 };
 
 /// Contact of a pair: one normal and up to four points, in the pair's frame.
@@ -40,9 +40,9 @@ struct PairShape {
 /// Every sum of two projections then fits a Unit, and the relative precision is the same for bodies of a millimetre and
 /// of a hundred metres.
 struct PairFrame {
-  int exponent;
-  Unit margin;  ///< contact margin: points farther apart than this are left out
-  Unit sunk;    ///< as ContactMargins::sunk, in the pair's unit
+  int exponent;  ///< the pair's unit of length is 2^exponent m
+  Unit margin;   ///< contact margin: a point with a larger separation is left out
+  Unit sunk;     ///< as ContactMargins::sunk, in the pair's unit
   bool smooth_seams;
   ManifoldReduction reduction;
   PairShape a, b;

@@ -10,10 +10,10 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 /// A contact with at least this many points is recycled until the motion of the pair exceeds the tolerance. A pair can
-/// rotate or roll about a contact with fewer points, so the limit is then 2^-k_roll_power of the tolerance.
+/// rotate or roll about a contact with fewer points. For such a contact the limit is 2^-k_roll_power of the tolerance.
 constexpr uint32_t k_plane_points = 3;
 constexpr int k_roll_power = 6;
-constexpr int k_anchor_frac = 15;
+constexpr int k_anchor_frac = 15;                          ///< fractional bits of ManifoldState::anchor
 constexpr Unit k_kept_arm_max = k_arm_max + Unit(0x1p-7);  ///< a clamped arm may exceed k_arm_max by rounding
 
 Unit unit_from_anchor(int16_t raw) {
@@ -23,7 +23,7 @@ Unit unit_from_anchor(int16_t raw) {
   return scale_by_power(static_cast<Unit>(raw), -k_anchor_frac);  // exact
 #endif
 }
-/// Rounds a coordinate to an anchor. Range: |value| < 1 - 2^-k_anchor_frac.
+/// Rounds a coordinate, in the body's unit, to that of an anchor. Range: |value| < 1 - 2^-k_anchor_frac.
 int16_t anchor_from_unit(Unit value) {
 #if DETENT_FIXED
   return static_cast<int16_t>(round_shift_64(value.raw, k_unit_frac - k_anchor_frac));
@@ -42,15 +42,15 @@ Real absolute_sum(const Vec3<Unit>& v, int exponent) {
   return real_from_unit(abs(v.x), exponent) + real_from_unit(abs(v.y), exponent) + real_from_unit(abs(v.z), exponent);
 }
 
-/// A pair in the frame of ManifoldState. Its unit of length is 4 units of the base (the larger body). The centre of a
-/// body that touches the base is within 0.6 of this unit from the base's centre.
+/// A pair in the frame of ManifoldState. Its unit of length is 4 times that of the base (the larger body). If the other
+/// body touches the base, its centre is within 0.6 of the pair's unit from the base's centre.
 struct RecyclePair {
   const CollisionBody& base;
   const CollisionBody& other;
   bool base_is_a;
   int exponent;
   Vec3<Real> between = {};  ///< from the base's centre to the other body's, world axes, m
-  Vec3<Unit> offset = {};   ///< the same, in the unit of length of the pair
+  Vec3<Unit> offset = {};   ///< as `between`, but in the pair's unit of length
 
   RecyclePair(const CollisionBody& a, const CollisionBody& b, bool a_is_base)
       : base(a_is_base ? a : b),
@@ -69,17 +69,17 @@ struct RecyclePair {
   }
   Vec3<Unit> offset_in_base() const { return multiply_transposed(base.rotation, offset); }
   Quat rotation_in_base() const { return multiply(conjugate(base.pose.rotation), other.pose.rotation); }
-  /// The vector from the other body's centre to an anchor, in that body's unit, world axes.
+  /// Returns the vector from the other body's centre to an anchor, in the other body's unit, in world axes.
   Vec3<Unit> arm_at(const int16_t (&anchor)[3]) const {
     return multiply(other.rotation,
                     Vec3<Unit>{unit_from_anchor(anchor[0]), unit_from_anchor(anchor[1]), unit_from_anchor(anchor[2])});
   }
-  /// The coordinate of a point of the other body along the normal, m. It is computed from exact positions, because
-  /// rounded positions cause jitter.
+  /// Returns the coordinate along `normal`, from the base's centre, of the other body's point at `arm`, m. It is
+  /// computed from the difference of the exact positions (`between`), because rounded positions cause jitter.
   Real place_along(const Vec3<Unit>& normal, const Vec3<Unit>& arm) const {
     return dot(between, normal) + real_from_unit(dot(normal, arm), other.properties.size_exponent);
   }
-  /// The vector from the base's centre to a point of the other body, in the pair's unit, world axes.
+  /// Returns the vector from the base's centre to the other body's point at `arm`, in the pair's unit, in world axes.
   Vec3<Unit> point_at(const Vec3<Unit>& arm) const {
     return offset + scale_by_power(arm, other.properties.size_exponent - exponent);
   }
@@ -89,14 +89,15 @@ bool a_is_base(const BodyProperties& a, const BodyProperties& b) {
   return !(bounding_radius_of(a) < bounding_radius_of(b));
 }
 
-/// An upper bound, m, of how far any point of the other body has moved relative to the base since `before` was stored.
+/// Returns an upper bound, m, of how far any point of the other body has moved relative to the base since `before` was
+/// stored.
 Real motion_since(const RecyclePair& pair, const ManifoldState& before) {
   const Vec3<Unit> shift = pair.offset_in_base() - before.offset;
   const Quat &p = before.rotation, q = pair.rotation_in_base();
   const bool flipped = dot(Vec3<Unit>{p.x, p.y, p.z}, Vec3<Unit>{q.x, q.y, q.z}) + p.w * q.w < Unit(0.0);
   const auto change = [flipped](Unit from, Unit to) { return real_from_unit(abs(flipped ? to + from : to - from), 0); };
-  // The rotation angle is 4 asin(|q - p| / 2). At the small angles that matter, it exceeds 2 |q - p| by less than 2^-10
-  // of its value. The sum of the component magnitudes is at least |q - p|.
+  // Let d = |q - p|. The angle of the rotation from p to q is 4 asin(d / 2). At the small angles that matter, it
+  // exceeds 2 d by less than 2^-10 of its value. The sum of the magnitudes of the components of q - p is at least d.
   const Real change_of_rotation = change(p.x, q.x) + change(p.y, q.y) + change(p.z, q.z) + change(p.w, q.w);
   const Real swing = scale_by_power(change_of_rotation * pair.other.properties.bounding_radius,
                                     pair.other.properties.size_exponent + 1);
@@ -127,7 +128,7 @@ ManifoldState kept_manifold(const CollisionBody& a, const CollisionBody& b, cons
     anchor[0] = anchor_from_unit(local.x);
     anchor[1] = anchor_from_unit(local.y);
     anchor[2] = anchor_from_unit(local.z);
-    // The height is computed from the rounded anchor. So the rounding of the anchor does not count as motion.
+    // The height is computed from the rounded anchor, so that the rounding does not change the separation.
     const Real place = pair.place_along(normal, pair.arm_at(anchor));
     kept.height[i] = unit_from_real(point.separation - place, pair.exponent);
   }

@@ -14,7 +14,7 @@ Vec32 absolute_of(const Vec32& v) {
 
 /// Whether two intervals, given by their middles and half lengths, are at most `margin` apart.
 bool near(int64_t a, int64_t half_a, int64_t b, int64_t half_b, int64_t margin) {
-  // The tolerances of 2^-20 and 2^-24 exceed the error of the rotation, which is less than 2^-27.
+  // The relative tolerances of 2^-20 and 2^-24 exceed the relative error of the rotation, which is less than 2^-27.
   const int64_t room = saturated_sum(saturated_sum(half_a, half_b), margin + (half_b >> 20) + (half_a >> 20));
   return static_cast<int64_t>(magnitude_64(saturated_sum(b, -a))) <=
          saturated_sum(room, static_cast<int64_t>(magnitude_64(b) >> 24));

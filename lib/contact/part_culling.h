@@ -6,12 +6,13 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Compares the bounds of the parts of two bodies, in A's axes, to find the parts that cannot come near each other.
+/// Compares the bounds of the parts (ConvexParts) of two bodies, in A's axes, to find the pairs of parts that cannot
+/// come near each other.
 class PartCulling {
  public:
-  /// `displacement`: how far B moves relative to A, m, world axes. Parts that stay farther apart than `distance`, m,
-  /// during this motion are culled; `distance` must include the motion that rotations add. Nothing is culled if a body
-  /// is a half-space, or if a value is out of range.
+  /// `displacement`: how far B moves relative to A, m, world axes. Two parts that stay farther apart than `distance`,
+  /// m, during this motion are culled; `distance` must include the motion that rotations add. No part is culled if a
+  /// body is a half-space, or if a value is out of range.
   PartCulling(const BodyProperties& a, const Pose& pose_a, const BodyProperties& b, const Pose& pose_b, Real distance,
               const Vec3<Real>& displacement);
 
@@ -25,7 +26,7 @@ class PartCulling {
   TerrainPlace place_;
   int64_t margin_ = 0;                   ///< 2^-46 m
   Vec64 half_displacement_ = {0, 0, 0};  ///< half of the displacement, in A's axes, 2^-46 m
-  bool known_;
+  bool known_;                           ///< false: no part is culled
 };
 
 }  // namespace DETENT_NAMESPACE

@@ -5,17 +5,17 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A segment, or with half_length 0 a point.
+/// A segment, or a point if `half_length` is 0.
 struct Segment {
   Vec3<Unit> centre;
   Vec3<Unit> direction;  ///< of unit length
   Unit half_length;
 };
 
-/// The point at `along` from the centre.
+/// Returns the point of the segment's line at the signed distance `along` from the centre.
 inline Vec3<Unit> point_at(const Segment& segment, Unit along) { return segment.centre + segment.direction * along; }
 
-/// numerator / denominator, clamped to +-limit. The denominator is positive, the limit below 2.
+/// Returns numerator / denominator, clamped to +-limit. Range: denominator > 0, limit < 2.
 inline Unit divide_clamped(Unit numerator, Unit denominator, Unit limit) {
   const Unit edge = limit * denominator;
   if (numerator >= edge) return limit;
@@ -23,9 +23,9 @@ inline Unit divide_clamped(Unit numerator, Unit denominator, Unit limit) {
   return divide(numerator, denominator);
 }
 
-/// Finds the closest points of two segments. `along_a` and `along_b`: their signed distances along each segment from
-/// its centre. If the segments are within 2^-11 rad of parallel, one of the two points is the middle of A or an end of
-/// a segment. Error: 2^-29 / |a x b| of the unit of length, where a and b are the directions.
+/// Finds the closest points of two segments. Sets `along_a` and `along_b` to the signed distance of each point from the
+/// centre of its segment. If the segments are within 2^-11 rad of parallel, one of the two points is the middle of A or
+/// an end of a segment. Error: 2^-29 / |a x b| of the unit of length, where a and b are the directions of the segments.
 /// Source: the common perpendicular of two lines, clamped as in Ericson, "Real-Time Collision Detection", 5.1.9.
 inline void closest_points(const Segment& a, const Segment& b, Unit& along_a, Unit& along_b) {
   const Vec3<Unit> between = b.centre - a.centre;
@@ -41,8 +41,9 @@ inline void closest_points(const Segment& a, const Segment& b, Unit& along_a, Un
     along_a = clamp(cosine * along_b + dot(a.direction, between), -a.half_length, a.half_length);
 }
 
-/// Shortens the range [low, high] of a segment to the part that is within the lateral distance `room` of a line. The
-/// segment crosses the line at `along`; its lateral distance grows by `rate` per unit of length.
+/// Shortens the range [low, high] of positions along a segment to the part that is within the lateral distance `room`
+/// of a line. The segment crosses the line at the position `along`; from there, its lateral distance grows by |rate|
+/// per unit of length.
 inline void stay_beside(Unit rate, Unit room, Unit along, Unit& low, Unit& high) {
   const Unit aside = abs(rate);
   if (aside * (along - low) > room) low = along - divide(room, aside);

@@ -10,7 +10,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Tests the triangles one by one and stops at the first one that is near.
+/// Tests triangles one by one until one of them is not farther from the shape than `margin` (`farther` becomes false),
+/// or until a test fails (`asked` becomes false).
 struct DistanceSearch {
   const Terrain terrain;
   const Pose &ground, &pose;

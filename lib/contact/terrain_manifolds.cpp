@@ -10,21 +10,23 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int k_plane_power = 4;  ///< planes at most 2^-4 of the half thickness apart count as one plane
-/// Dot product, Q28, from which on normals are equal: 2^-12 rad.
+/// Two normals count as equal if their dot product (Q28) is at least this: at most 2^-12 rad apart.
 constexpr int32_t k_equal_cosine = (1 << 28) - (1 << 3);
-/// Dot product, Q28, from which on a touch joins another plane if there is no room for one more: 2^-1 rad.
+/// If there is no room for another manifold, a touch joins a manifold of another plane only if the dot product of their
+/// normals (Q28) is above this: less than 2^-1 rad apart.
 constexpr int32_t k_near_cosine = (1 << 28) - (1 << 25);
 constexpr uint32_t k_edge_key = 0x80000000u;
 
-/// Whether a group with these values is kept rather than another one: doubtful groups go first, then the shallowest.
+/// Whether a group with these values is kept in preference to the other group: a group that is not doubtful before a
+/// doubtful one, else the deeper group.
 bool comes_before(bool doubtful, int64_t deepest, bool other_doubtful, int64_t other_deepest) {
   return doubtful != other_doubtful ? other_doubtful : deepest < other_deepest;
 }
 
 int64_t along(const Vec64& v, const Vec32& direction) { return dot(v, direction).round_shift(30); }
 
-/// The name of a normal: its components, coarsely rounded. A normal along an axis lies in the middle of the range of
-/// normals with the same name.
+/// Returns the name of a normal: its components, coarsely rounded. Similar normals have the same name; a normal along
+/// an axis lies in the middle of the normals with its name.
 uint32_t normal_name(const Vec32& normal) {
   const auto part = [](int32_t a) { return static_cast<uint32_t>((a + (1 << 24)) >> 25) & 0x7f; };
   return 1u << 29 | part(normal.x) << 22 | part(normal.y) << 15 | part(normal.z) << 8;
@@ -123,8 +125,8 @@ uint32_t TerrainManifolds::deepest_of(const Group& group) {
   return deepest;
 }
 
-/// Returns the points that AreaChoice chooses: bit i stands for point i. If `fill` is false, only the extremes are
-/// chosen.
+/// Returns the points of a group that AreaChoice chooses with `level` and `drop`, as a set of bits: bit i stands for
+/// point i. If `fill` is false, only the extremes are chosen.
 uint32_t TerrainManifolds::chosen_of(const Group& group, int64_t level, int64_t drop, bool fill) {
   int64_t u[k_points_max], v[k_points_max];  // coordinates in the plane, from the first point, 2^-46 m
   uint64_t spread = 0;
@@ -134,7 +136,7 @@ uint32_t TerrainManifolds::chosen_of(const Group& group, int64_t level, int64_t 
     spread |= i == 0 ? 0 : magnitude_64(u[i]) | magnitude_64(v[i]);
   }
   u[0] = v[0] = 0;
-  const int bits = bit_length_64(spread), shift = bits > 28 ? bits - 28 : 0;  // so that areas of triangles fit 64 bits
+  const int bits = bit_length_64(spread), shift = bits > 28 ? bits - 28 : 0;  // makes areas of triangles fit 64 bits
   AreaChoice choice(level, INT64_MAX, drop, ManifoldReduction::projected_extremes);
   do {
     for (uint32_t i = 0; i < group.count; ++i) {
@@ -147,8 +149,9 @@ uint32_t TerrainManifolds::chosen_of(const Group& group, int64_t level, int64_t 
   return chosen;
 }
 
-/// Returns the index of the point that is removed to make room: the highest point that is neither an extreme nor the
-/// deepest. Of eight points, at least three qualify. Among points of about the same height, it is the first.
+/// Returns the index of the point that is removed to make room for another point: the highest of those that are neither
+/// an extreme nor the deepest point. Of eight points, at least three are neither. Among points of about the same
+/// height, the result is the first.
 uint32_t TerrainManifolds::spare_point(const Group& group) const {
   const uint32_t needed = chosen_of(group, INT64_MAX, INT64_MAX / 2, false) | 1u << deepest_of(group);
   uint32_t spare = k_points_max;
@@ -162,7 +165,7 @@ uint32_t TerrainManifolds::spare_point(const Group& group) const {
   return spare;
 }
 
-/// Chooses up to four of the group's points. Points about as deep as the deepest are preferred.
+/// Makes the manifold of a group from up to four of its points. Points about as deep as the deepest are preferred.
 TerrainManifold TerrainManifolds::manifold(uint32_t place) const {
   const Group& group = group_[place];
   TerrainManifold manifold;

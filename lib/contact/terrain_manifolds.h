@@ -5,12 +5,12 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-inline constexpr uint32_t k_terrain_manifolds_max = 16;
+inline constexpr uint32_t k_terrain_manifolds_max = 16;  ///< largest number of contacts of one pair of bodies
 
 /// One planar contact of a shape with terrain (a mesh or height field), in the terrain's axes.
 struct TerrainManifold {
   Vec32 normal;       ///< from the terrain to the shape, Q30
-  uint32_t key;       ///< name of the touched plane or edge: constant while the shape stays on it, distinct, never 0
+  uint32_t key;       ///< of the touched plane or edge: constant while the shape stays on it, distinct, never 0
   uint32_t triangle;  ///< the triangle touched deepest
   uint8_t material;   ///< material of that triangle
   bool turns;         ///< as ContactGeometry::turns
@@ -23,20 +23,21 @@ struct TerrainManifold {
   } point[k_contact_points_max];
 };
 
-/// Collects the touches of a shape, triangle by triangle or part by part, into a few manifolds: all touches in one
-/// plane form one manifold. A touch on a face and one at an edge are in one plane only if their normals are equal.
-/// If there is no room for another manifold, a touch joins the one with the nearest normal, if that is within 2^-1 rad.
-/// Touches are added one at a time, and their number is not limited. The contact points in one plane must have distinct
-/// features.
+/// Collects the touches of a shape (TerrainTouch), triangle by triangle or part by part, into a few manifolds: all
+/// touches in one plane form one manifold. A touch on a face and a touch at an edge are in one plane only if their
+/// normals are equal. If there is no room for another manifold, a touch joins the manifold with the nearest normal, if
+/// the angle between the normals is at most 2^-1 rad. Touches are added one at a time, and their number is not limited.
+/// If two contact points in one plane have the same feature, only the deeper one is kept.
 class TerrainManifolds {
  public:
-  /// `size`: the shape's half thickness, 2^-46 m. Normals at most 2^-`same_power` rad apart count as one.
+  /// `size`: the shape's half thickness, 2^-46 m. Normals at most 2^-`same_power` rad apart count as one normal.
   TerrainManifolds(int64_t size, int same_power)
       : size_(size), same_cosine_(k_one_cosine - (k_one_cosine >> (2 * same_power + 1))) {}
   void add(const TerrainTouch& touch);
-  /// Forms the manifolds, in ascending order of key, and returns their count.
+  /// Call this after the last add(). Leaves out the doubtful manifolds, unless all are doubtful, and sorts the
+  /// manifolds by key, ascending. Returns their number.
   uint32_t finish();
-  /// The manifold at this place of the order, after finish().
+  /// Returns the manifold with the index `place` in the order of finish().
   TerrainManifold manifold(uint32_t place) const;
   /// Number of touches dropped so far for lack of room.
   uint32_t dropped() const { return dropped_; }
@@ -45,6 +46,7 @@ class TerrainManifolds {
  private:
   static constexpr uint32_t k_points_max = 8;
   static constexpr int32_t k_one_cosine = 1 << 28;
+  /// The touches in one plane, from which manifold() makes a manifold.
   struct Group {
     Vec32 normal;
     Vec32 u, v;     ///< axes of the plane
@@ -68,7 +70,7 @@ class TerrainManifolds {
   void leave_out_doubtful();
 
   int64_t size_;
-  int32_t same_cosine_;  ///< the least dot product, Q28, of normals that count as one
+  int32_t same_cosine_;  ///< the least dot product, Q28, of two normals that count as one normal
   uint32_t count_ = 0;
   uint32_t dropped_ = 0;
   bool capped_ = false;
@@ -77,22 +79,23 @@ class TerrainManifolds {
 
 /// One planar contact of two bodies, one of which is a mesh, a height field or a compound.
 struct TerrainContact {
-  /// A and B in the order of the call that fills this; for collide_mesh() and put_contact(), A is `ground`.
+  /// A and B are as in the call that fills this struct; for collide_mesh() and put_contact(), A is `ground`.
   ContactGeometry geometry;
   uint32_t key;       ///< the same while the body stays on the same plane or edge; distinct, never 0
   uint32_t triangle;  ///< the triangle touched deepest; 0 if there is no terrain
   uint8_t material;   ///< material of that triangle; 0 if there is no terrain
 };
 
+/// The contacts of a pair of bodies.
 struct TerrainContacts {
-  uint32_t count = 0;    ///< number of contacts, in ascending order of key
-  uint32_t dropped = 0;  ///< touched triangles or pairs of parts dropped for lack of room; the deepest are kept
+  uint32_t count = 0;    ///< number of contacts; they are in ascending order of key
+  uint32_t dropped = 0;  ///< number of touches (TerrainTouch) dropped for lack of room; the deepest are kept
   bool seam = false;     ///< whether ContactGeometry::seam is true for any contact
   bool capped = false;   ///< a search reached its iteration cap, asset bytes are missing, or a position is out of range
   TerrainContact contact[k_terrain_manifolds_max];
 };
 
-/// Converts a manifold to a contact of two bodies. `rotation`: from the manifold's axes to the world's.
+/// Sets `contact` to a manifold of the bodies `ground` and `body`. `rotation`: from the manifold's axes to the world's.
 void put_contact(const TerrainManifold& manifold, const Matrix32& rotation, const CollisionBody& ground,
                  const CollisionBody& body, TerrainContact& contact);
 

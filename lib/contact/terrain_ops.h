@@ -10,13 +10,13 @@ inline Terrain terrain_of(const BodyProperties& properties, const AssetTable& as
   return terrain_view(assets.assets[properties.asset].bytes);
 }
 
-/// Finds the contacts of two bodies, one of which has terrain; normals from A to B. Terrain has no contacts with other
-/// terrain or with a half-space.
+/// Finds the contacts of two bodies, one of which has terrain. The normals point from A to B. Terrain has no contacts
+/// with other terrain or with a half-space.
 void collide_terrain(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin,
                      const AssetTable& assets, TerrainContacts& contacts);
 
-/// As collide_terrain(), for one convex part of the body without terrain. The part and its middle, `middle` (2^-46 m),
-/// are in the axes of that body.
+/// As collide_terrain(), but for one convex part of the body that is not terrain. `part` and its middle, `middle`
+/// (2^-46 m), are in the axes of that body.
 void collide_part_with_terrain(const CollisionBody& a, const CollisionBody& b, const Convex& part, const Vec64& middle,
                                const ContactMargins& margin, const AssetTable& assets, TerrainContacts& contacts);
 

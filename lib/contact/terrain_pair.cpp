@@ -8,11 +8,11 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int k_shallow_power = 3;  ///< a contact no deeper than 2^-3 of the half thickness belongs to its face
-constexpr int k_lowest_power = 10;  ///< points within 2^-10 of the half thickness above the lowest count as lowest
+constexpr int k_shallow_power = 3;  ///< a contact less deep than 2^-3 of the half thickness is shallow
+constexpr int k_lowest_power = 10;  ///< a point counts as lowest if it is at most 2^-10 of the half thickness higher
 constexpr int k_allowed_power = 7;  ///< an allowed normal may tilt by 2^-7 rad into the neighbouring triangles
-constexpr int k_level_power = 6;    ///< edges whose slope is less than 2^-6 rad lie along the contact
-constexpr int k_mild_power = 3;     ///< face normals less than 2^-3 rad apart: contacts at the common edge use them
+constexpr int k_level_power = 6;    ///< an edge at less than 2^-6 rad to the contact plane touches along its length
+constexpr int k_mild_power = 3;     ///< an edge is mild if the normals of its faces are at most 2^-3 rad apart
 constexpr uint32_t k_fan_max = 64;  ///< number of triangles around a corner that are tested in each direction
 
 constexpr uint64_t longest(const Vec32& v) {
@@ -21,8 +21,8 @@ constexpr uint64_t longest(const Vec32& v) {
   return magnitude_32(v.z) > most ? magnitude_32(v.z) : most;
 }
 
-/// Whether a point lies on or below a plane with normal `normal`, within 2^-k_allowed_power rad. `direction`: from a
-/// point of the plane to the tested point.
+/// Whether a point lies below a plane with normal `normal`, or above it by an angle of at most 2^-k_allowed_power rad.
+/// `direction`: from a point of the plane to the tested point.
 bool is_below(const Vec32& normal, const Vec32& direction) {
   return dot(normal, direction) <= static_cast<int64_t>(longest(direction) << (30 - k_allowed_power));
 }
@@ -44,13 +44,13 @@ bool allows_other_normals(EdgeKind kind) { return kind == EdgeKind::convex || ki
 
 }  // namespace
 
-/// A triangle as seen from the side on which the shape's middle lies.
+/// A triangle, seen from the side on which the shape is.
 struct TerrainPair::Side {
   TerrainTriangle triangle;
   Vec32 normal;    ///< towards the shape
   int64_t height;  ///< height of the shape's lowest point above the triangle's plane, 2^-46 m
   uint32_t index;
-  bool behind;  ///< the shape is behind the triangle: the order of the corners is reversed
+  bool behind;  ///< the shape is on the back of the triangle, whose corners are therefore in reverse order
 
   bool has_free_edge() const {
     return allows_other_normals(triangle.kind[0]) || allows_other_normals(triangle.kind[1]) ||
@@ -135,7 +135,7 @@ TerrainPair::TerrainPair(const Terrain& terrain, const TerrainPlace& place, cons
   box_ = grid_box(terrain, low, high);
 }
 
-/// The displacement from the shape's centre to a point of the grid, 2^-46 m.
+/// Converts a point from grid steps to a displacement from the shape's centre, 2^-46 m.
 Vec64 TerrainPair::from_centre(const Vec32& point) const {
   const int64_t step = int64_t{1} << grid_shift(terrain_);
   return {point.x * step - centre_.x, point.y * step - centre_.y, point.z * step - centre_.z};
@@ -153,8 +153,9 @@ bool TerrainPair::is_behind(const Vec64& point, const Vec32& normal, const Vec32
   return sign_of(dot(add(from_centre(corner), negate(point)), normal)) > 0;
 }
 
-/// Returns a point inside the shape. For a capsule, box or cylinder, which may be long or flat, it is the point nearest
-/// to the triangle's middle inside the shape shrunk by its half thickness. For other shapes it is the shape's middle.
+/// Returns a point inside the shape, relative to its centre. A capsule, box or cylinder may be long or flat. For such a
+/// shape, the point is near the triangle's middle, within the shape shrunk by its half thickness. For other shapes, it
+/// is the shape's middle.
 Vec64 TerrainPair::nearest_inside(const TerrainTriangle& t) const {
   const auto beyond_thickness = [&](int k) {
     const int64_t extent = saturated_sum(raw_from_block(shape_.size[k], shape_.exponent), radius_);
@@ -215,8 +216,8 @@ TerrainPair::Side TerrainPair::side_of(uint32_t index) const {
   return side;
 }
 
-/// Makes the pair of the triangle (A) and the shape (B). The origin of both is the shape's centre. Returns false if the
-/// triangle is too far away to matter.
+/// Sets `convex` to the triangle, and `pair` to the pair of the triangle (A) and the shape (B), both with the shape's
+/// centre as their origin. Returns false if the triangle is too far away to be touched.
 bool TerrainPair::make_pair(const Side& side, Convex& convex, RestingPair& pair) const {
   Vec64 corner[3];
   for (int k = 0; k < 3; ++k) corner[k] = from_centre(side.triangle.corner[k]);
@@ -234,14 +235,15 @@ bool TerrainPair::make_pair(const Side& side, Convex& convex, RestingPair& pair)
   return true;
 }
 
-/// Returns the normal of the neighbouring triangle beyond a convex edge, on the side where the shape is.
+/// Returns the normal of the neighbouring triangle beyond a convex edge. It points to the side on which the shape is.
 Vec32 TerrainPair::normal_beyond(const Side& side, uint32_t edge) const {
   const TerrainTriangle beyond = terrain_.triangle(side.triangle.neighbour[edge]);
   const Vec32 normal = normal_of(beyond.corner[0], beyond.corner[1], beyond.corner[2]);
   return side.behind ? negate(normal) : normal;
 }
 
-/// Whether an edge is open, or convex with an angle between the face normals of more than 2^-k_mild_power rad.
+/// Whether the triangle has a sharp edge: an open edge, or a convex edge whose two face normals are more than
+/// 2^-k_mild_power rad apart.
 bool TerrainPair::has_sharp_edge(const Side& side) const {
   constexpr int64_t k_mild_cosine = (int64_t{1} << 60) - (int64_t{1} << (59 - 2 * k_mild_power));
   for (uint32_t k = 0; k < 3; ++k) {
@@ -252,9 +254,9 @@ bool TerrainPair::has_sharp_edge(const Side& side) const {
   return false;
 }
 
-/// Whether the shape overlaps less in a direction across a convex or open edge than along the triangle's normal, where
-/// the least separation is `deepest`, 2^-46 m. At a convex edge, this direction is the normal of the neighbour; at an
-/// open edge, it points outward in the plane of the triangle.
+/// Whether the shape overlaps less along a direction across a convex or open edge than along the triangle's normal. At
+/// a convex edge, this direction is the normal of the neighbour; at an open edge, it points outward in the plane of the
+/// triangle. `deepest`: the least separation along the triangle's normal, 2^-46 m.
 bool TerrainPair::has_nearer_exit(const Side& side, int64_t deepest) const {
   for (uint32_t k = 0; k < 3; ++k) {
     const TerrainTriangle& t = side.triangle;
@@ -315,15 +317,16 @@ bool TerrainPair::allows(const Side& side, const Vec32& normal) const {
   return allows_at_corner(side.index, corner[top], normal);
 }
 
-/// Returns a vector in the triangle's plane that is perpendicular to side k and points outward. Its length is 2^29 to
-/// 2^31.
+/// Returns a vector in the triangle's plane that is perpendicular to side k and points outward. Its length is between
+/// 2^29 and 2^31.
 Vec32 TerrainPair::outward(const Side& side, uint32_t k) {
   const Vec32 &a = side.triangle.corner[k], &b = side.triangle.corner[next_of_three(k)];
   return scaled_to_30_bits(cross(scaled_to_30_bits(subtract(b, a)), side.normal));
 }
 
-/// Returns a lower bound of the distance, 2^-46 m, by which a point of the shape lies beyond side k. Within rounding,
-/// the bound is at least a quarter of that distance, and at most 0 for a point that is not beyond the side.
+/// Returns a lower bound of the distance, 2^-46 m, by which `point` of the shape's core lies beyond side k. `out`:
+/// outward() of this side. Within rounding, the bound is at least a quarter of the distance; it is at most 0 if the
+/// point is not beyond the side.
 int64_t TerrainPair::beyond(const Side& side, uint32_t k, const Vec32& out, const Vec32& point) const {
   return raw_from_block(dot(out, point) >> 31, shape_.exponent) -
          dot(from_centre(side.triangle.corner[k]), out).round_shift(31);
@@ -339,8 +342,8 @@ bool TerrainPair::is_beside(const Side& side, int64_t clear) const {
 }
 
 /// Whether beyond() shows that the lowest point of the core lies beyond a side of the triangle by more than `clear`,
-/// 2^-46 m. If the lowest feature is an edge, or a line of a round side, that is level with the triangle, its middle is
-/// tested.
+/// 2^-46 m. The lowest feature may be an edge, or a line of a round side, that is level with the triangle; then its
+/// middle is the point that is tested.
 __attribute__((noinline)) bool TerrainPair::is_lowest_beside(const Side& side, int64_t clear) const {
   constexpr int64_t k_lying = k_one >> 12;
   Feature lowest;
@@ -355,9 +358,9 @@ __attribute__((noinline)) bool TerrainPair::is_lowest_beside(const Side& side, i
 
 /// Whether a contact found at an edge of the triangle is a contact at a seam (contact_seam.h). A contact whose normal
 /// is within 2^-2 rad of the triangle's normal is at a seam if a round shape touches an edge that is level with the
-/// triangle. Any other contact is at a seam if it is a sliver. False without smooth_seams, and if no edge is convex or
-/// open. `facing`: the dot product of the contact normal and the triangle's normal, Q60. `deepest`: the least
-/// separation, 2^-46 m.
+/// triangle. Any other contact is at a seam if it is a sliver. The result is false without ContactRules::smooth_seams,
+/// and if no edge of the triangle is convex or open. `facing`: the dot product of the contact normal and the triangle's
+/// normal, Q60. `deepest`: the least separation of the contact, 2^-46 m.
 bool TerrainPair::is_at_seam(const Side& side, int64_t facing, int64_t deepest) const {
   if (!rules_.smooth_seams || !side.has_free_edge()) return false;
   const auto within = [&](int64_t room) { return side.height >= -room && side.height <= room && deepest >= -room; };
@@ -369,7 +372,7 @@ bool TerrainPair::is_at_seam(const Side& side, int64_t facing, int64_t deepest) 
 }
 
 /// Replaces the normal of a manifold. Moves each contact point to the line along the new normal through the core's
-/// point. A contact point beside this line would exert a torque on a ball.
+/// point that belongs to it. A contact point beside this line would exert a torque on a ball.
 void TerrainPair::turn_to(const Vec32& normal, BlockManifold& manifold) const {
   for (uint32_t i = 0; i < manifold.count; ++i) {
     BlockPoint& point = manifold.point[i];
@@ -418,8 +421,9 @@ bool TerrainPair::touch(uint32_t index, TerrainTouch& touch) const {
   const bool over = touch.manifold.count > 0, shallow = touch.deepest > -(thickness_ >> k_shallow_power);
   const bool sharp = free && has_sharp_edge(side);
   if (!sharp && over && shallow) return true;
-  // The limit is larger for a triangle with a convex or open edge. On a mild ridge, the shape's lowest point along the
-  // normal of either triangle lies beyond the common edge, so both triangles would discard the contact.
+  // The limit `clear` is larger for a triangle with a convex or open edge. On a mild ridge, the shape's lowest point
+  // along the normal of either triangle lies beyond the common edge. So with the smaller limit both triangles would
+  // discard the contact.
   if (!sharp && !over && is_lowest_beside(side, size >> (free ? k_mild_power : k_level_power))) return false;
   if (over && touch.deepest >= 0 && touch.deepest <= side.height + (thickness_ >> k_lowest_power)) return true;
   if (over && shallow && touch.deepest <= side.height + (thickness_ >> k_lowest_power) &&
@@ -438,7 +442,7 @@ bool TerrainPair::touch(uint32_t index, TerrainTouch& touch) const {
     touch.seam = true;
     if (facing < k_alike) return false;
     turn_to(side.normal, searched);
-    // Each point keeps its place on the shape, and gets this place's height above the triangle's plane.
+    // The separation of each point becomes the height of its place on the shape above the triangle's plane.
     const Vec64 from = negate(from_centre(side.triangle.corner[0]));
     for (uint32_t i = 0; i < searched.count; ++i) {
       BlockPoint& point = searched.point[i];
@@ -456,7 +460,7 @@ bool TerrainPair::touch(uint32_t index, TerrainTouch& touch) const {
     return false;
   } else if (!allows(side, searched.normal)) {
     touch.doubtful = !shallow;
-    return over && (shallow || least_separation(searched) <= 0);  // else the shape overlaps only beside the triangle
+    return over && (shallow || least_separation(searched) <= 0);  // else the shape touches only beside the triangle
   }
   touch.on_face = facing >= k_upright_cosine;
   touch.manifold = searched;

@@ -5,7 +5,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The place of a shape in the axes of terrain (a mesh or height field).
+/// The pose of a shape relative to terrain (a mesh or height field).
 struct TerrainPlace {
   Matrix32 terrain;   ///< from the terrain's axes to the world's
   Matrix32 rotation;  ///< from the shape's axes to the terrain's
@@ -19,35 +19,37 @@ struct TerrainPlace {
 /// positions 2^16 m or more apart in a component.
 Status place_on_terrain(const Pose& terrain, const Pose& shape, TerrainPlace& place);
 
-/// The number of bits to shift right to convert 2^-46 m to grid steps.
+/// Returns the number of bits by which a length in 2^-46 m is shifted right to convert it to grid steps. A grid step is
+/// 2^-30 of the terrain's unit of length; the corners of its triangles have integer coordinates in grid steps.
 inline int grid_shift(const Terrain& terrain) { return k_metre_bits - 30 + terrain.exponent(); }
-/// Returns the smallest grid box that contains the box from `low` to `high`, 2^-46 m, and one more grid step on each
-/// side. Clamped to +-INT32_MAX.
+/// Returns a box in grid steps that contains the box from `low` to `high` (2^-46 m) and at least one more grid step on
+/// each side. The coordinates are clamped to +-INT32_MAX.
 GridBox grid_box(const Terrain& terrain, const Vec64& low, const Vec64& high);
 
-/// Makes a triangle from its corners, 2^-46 m from its origin, in a unit of length of 2^exponent m. `bound`, 2^-46 m:
-/// at least the greatest distance of a corner from the origin, and below the unit.
+/// Sets `convex` to a triangle. `corner`: relative to the triangle's origin, 2^-46 m. The triangle's unit of length is
+/// 2^exponent m. `bound`, 2^-46 m: at least the greatest distance of a corner from the origin, and below the unit.
 void set_triangle(const Vec64 (&corner)[3], int64_t bound, int exponent, Convex& convex);
 /// Returns an upper bound (length_bound()) of the greatest distance of a corner from the origin.
 int64_t bound_of(const Vec64 (&corner)[3]);
 
-/// rotate() converts v from the axes of `m` to the world's; rotate_back() is the inverse. Range: |v| < 2^62. Rounding:
-/// to nearest, once.
+/// rotate() returns m v. rotate_back() is its inverse: it returns the transpose of m times v. Range: |v| < 2^62.
+/// Rounding: to nearest, once.
 Vec64 rotate(const Matrix32& m, const Vec64& v);
 Vec64 rotate_back(const Matrix32& m, const Vec64& v);
 
-/// A unit vector perpendicular to a normal, Q30. Equal normals give the same vector. Therefore the points kept for a
-/// plane are among the points kept for its triangles.
+/// Returns a unit vector perpendicular to a normal, Q30. Equal normals give the same vector. So the points of all
+/// triangles in a plane are reduced along the same diagonals, and the extreme points of the plane are among those that
+/// its triangles keep.
 Vec32 axis_across(const Vec32& normal);
 
-/// The contact of a shape with one triangle, along one normal.
+/// A touch: the contact of a shape with one triangle, along one normal.
 struct TerrainTouch {
   uint32_t triangle;
   uint32_t part;  ///< as ContactGeometryPoint::part
   uint8_t material;
   bool on_face;             ///< the normal is the triangle's normal
   bool seam;                ///< as ContactGeometry::seam; set even if touch() returns false
-  bool doubtful;            ///< too deep to trust this normal: used only if there is no other contact
+  bool doubtful;            ///< too deep to trust this normal: used only if no contact is free of doubt
   BlockManifold manifold;   ///< A is the triangle, its origin at the shape's centre; terrain's axes
   int64_t deepest;          ///< the least separation, 2^-46 m
   uint32_t corner_name[3];  ///< names of the corners; the same for all triangles that share a corner
@@ -59,18 +61,19 @@ class TerrainPair {
   /// The arguments must outlive this object.
   TerrainPair(const Terrain& terrain, const TerrainPlace& place, const Convex& shape, const ContactRules& rules);
 
-  /// Bounds of the shape, grown by the contact margin.
+  /// Bounds of the shape in grid steps, grown by the contact margin.
   const GridBox& box() const { return box_; }
   /// The shape's least half extent, its rounding ball included, 2^-46 m.
   int64_t half_thickness() const { return thickness_; }
 
-  /// Finds the contact with one triangle. False if the shape does not touch the triangle, or if the contact belongs to
-  /// a neighbour.
+  /// Finds the contact with one triangle. Returns false if the shape does not touch the triangle, or if the contact
+  /// belongs to a neighbouring triangle.
   ///
-  /// The contact normal must be one that the terrain allows. On the face, and at flat and concave edges, this is only
-  /// the triangle's own normal. At a convex or open edge, or at a corner, the directions between the normals of the
-  /// adjacent faces are allowed too. Contact points over the triangle along its own normal need no search. A search
-  /// runs only near a sharp edge, at a mild ridge if no contact point is over the triangle, and for deep contacts.
+  /// The contact normal must be one that the terrain allows. On the face, and at flat and concave edges, only the
+  /// triangle's own normal is allowed. At a convex or open edge, or at a corner, the directions between the normals of
+  /// the adjacent faces are allowed too. Contact points over the triangle along its own normal are found without a
+  /// search for the contact axis. A search is made only near a sharp edge, at a mild ridge if no contact point is over
+  /// the triangle, and for deep contacts.
   bool touch(uint32_t triangle, TerrainTouch& touch) const;
 
  private:

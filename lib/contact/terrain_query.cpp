@@ -8,9 +8,10 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int32_t k_slack = 4;  ///< grid steps; rounding the ends moves the segment by less than this
+constexpr int32_t k_slack = 4;  ///< grid steps; rounding the ends of a segment moves its points by less than this
 
-/// Limits [from, to] to the times at which the segment is in the box, grown by k_slack steps. False if there are none.
+/// Shortens [from, to] to the times at which the segment is in the box, grown by k_slack grid steps. Returns false if
+/// there are none. `box` is in grid steps, `origin` and `displacement` are in 2^-46 m.
 bool clip(const GridBox& box, int shift, const Vec64& origin, const Vec64& displacement, int64_t& from, int64_t& to) {
   const auto axis = [&](int32_t low, int32_t high, int64_t start, int64_t along) {
     const int64_t first = (int64_t{low} - k_slack) * (int64_t{1} << shift) - start;
@@ -59,7 +60,7 @@ struct GridSegment {
   }
 };
 
-/// part / whole as a time. Range: 0 <= part <= whole, whole > 0.
+/// Returns part / whole as a time: k_time_end stands for 1. Range: 0 <= part <= whole, whole > 0.
 int64_t quotient(Int128 part, Int128 whole) {
   const int excess = bit_length_128(magnitude_128(whole)) - 62;
   const auto head = [excess](Int128 value) { return excess > 0 ? value.round_shift(excess) : value.low_signed(); };
@@ -67,7 +68,8 @@ int64_t quotient(Int128 part, Int128 whole) {
   return time > k_time_end ? k_time_end : time;
 }
 
-/// Whether the segment hits the triangle. `time`: when it does. `from_behind`: whether it comes from behind.
+/// Whether the segment hits the triangle. If so, sets `time` to the time of the hit, and `from_behind` to whether the
+/// segment comes from the triangle's back.
 bool meets_triangle(const GridSegment& segment, const TerrainTriangle& triangle, int64_t& time, bool& from_behind) {
   const Vec32 displacement = subtract(segment.to, segment.from);
   const Vec64 area = area_vector(triangle.corner[0], triangle.corner[1], triangle.corner[2]);
@@ -80,8 +82,9 @@ bool meets_triangle(const GridSegment& segment, const TerrainTriangle& triangle,
     part = -part;
   }
   if (sign_of(part) < 0 || whole < part) return false;
-  // For a shared side, the neighbouring triangle computes the same number with the opposite sign. So no segment passes
-  // between the two triangles.
+  // For each edge of the triangle, the sign of a triple product shows on which side of the edge the segment passes. The
+  // triangle beyond the edge computes the same product with the opposite sign. So no segment passes between the two
+  // triangles.
   int left = 0, right = 0;
   for (int k = 0; k < 3; ++k) {
     const Vec32 a = subtract(triangle.corner[k], segment.from),
@@ -173,7 +176,7 @@ Status terrain_convex(const Terrain& terrain, const Pose& pose, uint32_t triangl
   near.position.z = coord_advance(near.position.z, real_from_raw(displacement.z), saturated);
   Vec64 moved;
   if (saturated || !raw_difference(near.position, pose.position, moved)) return Status::out_of_range;
-  // Makes the corners relative to the rounded position, so that its rounding cancels.
+  // Makes the corners relative to the rounded position, so that the rounding does not move the triangle.
   const Vec64 origin = rotate_back(matrix, moved);
   for (Vec64& at : corner) at = {at.x - origin.x, at.y - origin.y, at.z - origin.z};
   const int64_t bound = bound_of(corner);

@@ -6,6 +6,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+/// The result of cast_ray_on_terrain().
 struct TerrainHit {
   bool hit = false;
   Fraction time = 0.0;     ///< fraction of the segment at the hit; 1 if there is no hit
@@ -15,11 +16,11 @@ struct TerrainHit {
 };
 
 /// Finds the first triangle of terrain (a mesh or height field) at `pose` that a segment hits. The segment goes from
-/// `origin` (m, from the terrain's position, world axes) along `displacement` (m). Ties: the lower index. One-sided
-/// terrain ignores hits from behind. The ends are rounded to the grid, so the hit errs by up to one grid step. The
-/// tests against the sides of a triangle are then exact, so no ray passes between two adjacent triangles. A ray in a
-/// triangle's plane does not hit the triangle. Errors: not_normalised; out_of_range, also for components of 2^15 m or
-/// more.
+/// `origin` (m, from the terrain's position, world axes) along `displacement` (m). Ties: the triangle with the lower
+/// index. One-sided terrain ignores hits from behind. The ends of the segment are rounded to the terrain's grid
+/// (grid_shift()), so the hit errs by up to one grid step. The tests against the sides of a triangle are then exact, so
+/// no ray passes between two adjacent triangles. A ray in a triangle's plane does not hit the triangle. Errors:
+/// not_normalised; out_of_range, also for components of `origin` or `displacement` of 2^15 m or more.
 Status cast_ray_on_terrain(const Terrain& terrain, const Pose& pose, const Vec3<Real>& origin,
                            const Vec3<Real>& displacement, TerrainHit& hit);
 
@@ -28,9 +29,9 @@ Status cast_ray_on_terrain(const Terrain& terrain, const Pose& pose, const Vec3<
 void visit_terrain(const Terrain& terrain, const Vec64& low, const Vec64& high,
                    void (*visit)(void* context, uint32_t triangle), void* context);
 
-/// Makes a convex shape from one triangle, for time_of_impact(), and sets `placed` to its pose. The position is the
-/// coordinate nearest to the triangle's first corner. Errors: not_normalised; out_of_range if that position is out of
-/// range.
+/// Sets `convex` to one triangle of terrain at `pose`, for time_of_impact(), and `placed` to the pose of this convex
+/// shape. The position of `placed` is the triangle's first corner, rounded to coordinates. Errors: not_normalised;
+/// out_of_range if this position is out of range.
 Status terrain_convex(const Terrain& terrain, const Pose& pose, uint32_t triangle, Pose& placed, Convex& convex);
 
 }  // namespace DETENT_NAMESPACE

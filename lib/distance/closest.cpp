@@ -6,8 +6,9 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Sets `result` to whether the distance certainly exceeds `distance_max` + `slack`. Units: `distance_max` in 2^-46 m,
-/// `slack` in ulps of the pair's block (support.h).
+/// Sets `result` to whether the distance certainly exceeds `distance_max` (2^-46 m). `slack` (ulps of the pair's block,
+/// support.h) is added to the distance at which gjk() stops. It is k_gjk_slack for farther_than(). It is 0 for
+/// overlap(), because gjk() decides exactly whether two cores without balls touch.
 Status farther_by(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, int64_t distance_max,
                   int32_t slack, bool& result, DistanceCache* cache) {
   RestingPair pair;

@@ -24,7 +24,7 @@ void set_ball(int64_t rounding, Convex& convex) {
   convex.radius = in_units(rounding, convex.radius_exponent);
 }
 
-/// Sets the unit of length and the core radius for a core whose points are at most `bound` from the origin.
+/// Sets the unit of length and the core radius for a core whose points are at most `bound` (2^-46 m) from the origin.
 void set_core(int64_t bound, Convex& convex) {
   convex.exponent = raw_exponent_above(bound + 1);
   convex.core_radius = in_units(bound, convex.exponent) + 1;

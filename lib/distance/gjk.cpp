@@ -10,7 +10,7 @@ Vec32 difference_of(const Placed& a, const Placed& b, const Vec32& offset, const
   return add(offset, subtract(b.point(vertex.b.local), a.point(vertex.a.local)));
 }
 
-/// Rebuilds the simplex from its core points at their current places.
+/// Rebuilds the simplex of an earlier query from its core points: computes their differences in the current block.
 void restart(const Placed& a, const Placed& b, const Vec32& offset, Simplex& simplex) {
   const Simplex last = simplex;
   simplex.clear();
@@ -21,9 +21,9 @@ void restart(const Placed& a, const Placed& b, const Vec32& offset, Simplex& sim
   }
 }
 
-/// A gap along a direction vector is certain if gap (ulps) x length of the vector is above this. The vector is shorter
-/// than 2^31, so such a gap is more than four ulps: more than the rounding errors of the direction and of the support
-/// points.
+/// The cores certainly have a gap along a direction vector if the dot product of the vector and the difference of the
+/// support points (ulps) is above this. The vector is shorter than 2^31, so the gap is then more than four ulps: more
+/// than the rounding errors of the direction and of the support points.
 constexpr int64_t k_touching = int64_t{4} << 31;
 
 int32_t floor_30(int64_t value) { return static_cast<int32_t>(value >> 30); }
@@ -31,8 +31,8 @@ int32_t ceiling_30(int64_t value) { return static_cast<int32_t>((value + (int64_
 
 const SimplexVertex& newest(const Simplex& simplex) { return simplex.vertex(simplex.count() - 1); }
 
-/// Sets `core` to the vertex of the placed core that is exactly the farthest along the simplex's nearest point v
-/// (`sign` -1: along -v). Leaves `core` as it is if the core has no vertices.
+/// Sets `core` to the vertex of the placed core that is exactly the farthest along v, the vector from the origin to the
+/// simplex's nearest point (`sign` -1: along -v). Leaves `core` as it is if the core has no vertices.
 void exact_support(const Placed& placed, const Simplex& simplex, int sign, CorePoint& core) {
   CorePoint vertex;
   Int128 most = Int128::from(0);
@@ -45,7 +45,7 @@ void exact_support(const Placed& placed, const Simplex& simplex, int sign, CoreP
   }
 }
 
-/// gjk() for a half-space. Only the normal of its plane can separate it from the other shape.
+/// As gjk(), for a pair with a half-space. Only the normal of its plane can separate it from the other shape.
 GjkResult half_space_gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& simplex) {
   const bool plane_is_a = a.convex->type == ShapeType::half_space;
   const Vec32 up = (plane_is_a ? a : b).rotation.column[1];
@@ -83,7 +83,8 @@ GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& si
       }
       direction = simplex.direction();
       along_direction = dot(direction, newest(simplex).difference);
-      // |direction| lies within [2^29, sqrt(3) 2^30], so this shift cheaply decides whether the exact test is needed.
+      // |direction| is at most sqrt(3) 2^30, below 2^31, so this shift gives a lower bound of the distance. If the
+      // bound is above limits.below, `upper` need not be computed.
       if (along_direction >> 31 <= limits.below) {
         result.normal = unit_vector_raw(direction);
         result.upper = ceiling_30(dot(result.normal, newest(simplex).difference));

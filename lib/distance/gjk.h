@@ -10,17 +10,18 @@ inline namespace DETENT_NAMESPACE {
 inline constexpr int k_gjk_iterations_max = 24;
 
 enum class GjkOutcome {
-  apart,    ///< the cores are separate; their distance is at least `lower` and at most `upper`
+  /// The cores are separate, or the search stopped at GjkLimits::below. `lower` and `upper` bound their distance.
+  apart,
   overlap,  ///< the cores overlap or touch; the simplex contains the origin
   capped,   ///< the iteration cap was reached; `lower` and `upper` are still valid bounds
 };
 
-/// Lengths in ulps of the block.
+/// The result of gjk(). Lengths are in ulps of the pair's block (support.h).
 struct GjkResult {
   GjkOutcome outcome;
-  Vec32 normal;    ///< from A to B, Q30, within k_normalise_error of the direction of the nearest point
+  Vec32 normal;    ///< unit vector from A to B, Q30; each component errs by at most k_normalise_error
   int32_t upper;   ///< distance of the witness points, rounded up
-  int32_t lower;   ///< no two core points are nearer than lower - k_gjk_slack
+  int32_t lower;   ///< no point of A's core is nearer to a point of B's core than lower - k_gjk_slack
   int iterations;  ///< number of support points evaluated
 };
 
@@ -31,24 +32,26 @@ struct GjkLimits {
 };
 
 /// Finds where the cores of A (at the block's origin) and B (at `offset`) are nearest (Gilbert, Johnson, Keerthi 1988),
-/// with the exact simplex. Starts from the core points in `simplex` (may be empty) and leaves the last simplex there.
+/// with the exact simplex. The search starts from the core points in `simplex`, which may be empty. On return,
+/// `simplex` is the last simplex.
 GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& simplex, const GjkLimits& limits);
 
-/// As gjk(), but a capped search continues from its last simplex, up to k_gjk_rounds_max rounds in all: rims that
-/// nearly touch may need more than 24 supports.
+/// As gjk(), but a capped search continues from its last simplex, up to k_gjk_rounds_max rounds in all. Two rims that
+/// nearly touch may need more than 24 support points.
 GjkResult gjk_on(const Placed& a, const Placed& b, const Vec32& offset, Simplex& simplex, const GjkLimits& limits);
 inline constexpr int k_gjk_rounds_max = 4;
 
-/// The witness points, in the block, each from its shape's centre. offset + on_b - on_a is the simplex's point nearest
-/// to the origin.
+/// The witness points, in the block, each relative to the centre of its shape. offset + on_b - on_a is the simplex's
+/// point nearest to the origin.
 struct NearestPoints {
   Vec32 on_a, on_b;
 };
 NearestPoints nearest_points(const Placed& a, const Placed& b, const Simplex& simplex);
 
-/// Ulps of the block by which `lower` may exceed the least distance of the true cores along the normal. Sources:
-/// placing (1.5 sqrt 3 for each core), the rounding of the normal and of the local direction, and the choice of the
-/// support point. Derived in docs/design/time_of_impact.md, "A known axis replaces the search".
+/// Ulps of the block by which GjkResult::lower may exceed the least distance of the true cores along the normal. The
+/// sources of this error: placing (1.5 sqrt 3 for each core, k_placing_error), the rounding of the normal and of the
+/// local direction, and the choice of the support point. Derived in docs/design/time_of_impact.md, "A known axis
+/// replaces the search".
 inline constexpr int k_gjk_slack = 16;
 
 }  // namespace DETENT_NAMESPACE

@@ -75,7 +75,7 @@ bool raw_from_quat(const Quat& q, Quat32& raw) {
   const uint64_t square = static_cast<uint64_t>(int64_t{raw.x} * raw.x) +
                           static_cast<uint64_t>(int64_t{raw.y} * raw.y) +
                           static_cast<uint64_t>(int64_t{raw.z} * raw.z) + static_cast<uint64_t>(int64_t{raw.w} * raw.w);
-  // Rotations that the library computed are of length 1 within 2^-29 and stay as they are.
+  // Rotations that the library computed have a length of 1 within 2^-29, and are not normalised again.
   if (square - ((uint64_t{1} << 60) - (uint64_t{1} << 32)) <= uint64_t{1} << 33) return true;
   return normalise_input(raw);
 }

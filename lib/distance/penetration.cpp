@@ -11,13 +11,14 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int64_t k_ulp = int64_t{1} << 30;  ///< in Q30
+constexpr int64_t k_ulp = int64_t{1} << 30;  ///< one ulp of the block, in Q30
 constexpr int k_vertices_max = k_penetration_vertices_max;
 constexpr int k_faces_max = 2 * k_vertices_max - 4;
 static_assert(k_vertices_max <= 64, "edges are rows of 64 bits");
 
-/// Distance from the origin to the plane through `point` perpendicular to `normal`, Q30 ulps, positive along the
-/// normal. Rounding: to nearest, from a quotient with a relative error below 2^-62.
+/// Returns the signed distance from the origin to the plane through `point` perpendicular to `normal`, in ulps of the
+/// block, Q30. It is positive if the plane lies in the direction of the normal. Rounding: to nearest, from a quotient
+/// with a relative error below 2^-62.
 int64_t plane_distance(const Vec64& normal, const Vec32& point) {
   const Int128 square = dot(normal, normal);
   const int half_shift = (126 - bit_length_128(magnitude_128(square))) / 2;
@@ -25,7 +26,7 @@ int64_t plane_distance(const Vec64& normal, const Vec32& point) {
   const uint64_t length = square_root_nearest(Words128{static_cast<uint64_t>(scaled.high_word()), scaled.low_word()});
   return divide_rounded(dot(normal, point).shift_left(30 + half_shift), static_cast<int64_t>(length));
 }
-/// Q30 ulps: if the distances of two planes differ by no more than this, rounding may hide which plane is nearer.
+/// If the distances of two planes differ by no more than this (ulps, Q30), rounding may hide which plane is nearer.
 constexpr int64_t k_tie = 4;
 
 /// A vertex of the Minkowski difference B - A.
@@ -37,7 +38,7 @@ struct Vertex {
 /// A triangle; its vertices are counter-clockwise seen from outside.
 struct Face {
   uint8_t vertex[3];
-  int64_t distance;  ///< from the origin to its plane, Q30 ulps
+  int64_t distance;  ///< from the origin to its plane, ulps, Q30
 };
 
 /// The convex hull of some vertices of the difference; its boundary consists of triangles.
@@ -61,7 +62,8 @@ struct ExpandingPolytope {
   void grow();
   /// Whether the origin's projection onto the face's plane lies in the face.
   bool holds_foot(const Face& f) const;
-  /// The face nearest to the origin, within rounding. `least`: the least plane distance, also within rounding.
+  /// Returns the face nearest to the origin, within rounding. Sets `least` to the least distance of a face's plane from
+  /// the origin (Q30), also within rounding.
   const Face& nearest_face(int64_t& least) const;
 };
 static_assert(sizeof(ExpandingPolytope) <= 4096);
@@ -107,21 +109,21 @@ const Face& ExpandingPolytope::nearest_face(int64_t& least) const {
     if (face[i].distance < face[best].distance) best = i;
   }
   least = face[best].distance;
-  // The origin's projection onto the nearest plane lies in the polytope. This test selects the face among planes that
-  // rounding cannot distinguish, and among the triangles of one facet.
+  // Several planes may be nearest within rounding, and several triangles may lie in one plane. The nearest face among
+  // them is the one that contains the origin's projection onto its plane.
   for (int i = 0; i < face_count; ++i) {
     if (face[i].distance <= least + k_tie && holds_foot(face[i])) return face[i];
   }
   return face[best];
 }
 
-/// Replaces `found`, which is the farthest along `normal` but for rounding, by the exactly farthest vertex of the
-/// placed core. Leaves `found` as it is if the core has no vertices.
+/// Replaces `found`, a point of the placed core that is farthest along `normal` only within rounding, by the vertex
+/// that is farthest exactly. Leaves `found` as it is if the core has no vertices.
 void exact_support(const Placed& placed, const Vec64& normal, SupportPoint& found) {
   if (found.core.feature == k_no_feature) return;
-  // A vertex whose coordinate along the direction is smaller by more than `doubt` cannot be the farthest. `doubt` is a
-  // dot product of a length, in 2^-30 of the shape's unit, and the direction. It covers 4 ulps of the shape for the
-  // rounded directions and 9 ulps of the block for the two rounded points.
+  // A vertex cannot be the farthest if its coordinate along `direction` is smaller than that of `found` by more than
+  // `doubt`. Both are dot products of a local point, in 2^-30 of the shape's unit, with `direction`. `doubt` covers 4
+  // ulps of the shape for the rounded directions and 9 ulps of the block for the two rounded points.
   const Vec32 direction = rotate_inverse(placed.rotation, scaled_to_30_bits(normal));
   const int64_t doubt = int64_t{16} << (30 + (placed.shift < 27 ? placed.shift : 27));
   const int64_t floor = dot(direction, found.core.local) - doubt;
@@ -176,8 +178,8 @@ class PenetrationSearch {
   const Placed& b_;
   Vec32 offset_;
   ExpandingPolytope polytope_;
-  // The best face so far. Its plane, moved outwards until it only touches the Minkowski difference, is nearer to the
-  // origin than that of any other face tested.
+  // The best face so far. If the plane of each tested face is moved outwards until it only touches the Minkowski
+  // difference, the moved plane of the best face is the one nearest to the origin.
   Face best_;
   Vec32 outward_;
   int64_t support_ = INT64_MAX / 2;
@@ -186,7 +188,8 @@ class PenetrationSearch {
   bool capped_ = false;
 };
 
-/// Adds the vertex farthest along `direction` if it passes the test.
+/// Adds the vertex of the difference that is farthest along `direction`, if `test` accepts it. Returns whether it was
+/// added.
 template <class Test>
 bool PenetrationSearch::add_where(const Vec64& direction, const Test& test) {
   const Vec32 d = scaled_to_30_bits(direction);
@@ -200,7 +203,8 @@ bool PenetrationSearch::add_where(const Vec64& direction, const Test& test) {
   return true;
 }
 
-/// Extends the simplex to a tetrahedron. False if the difference is flat; `across` is then perpendicular to it.
+/// Copies the simplex to the polytope and adds vertices until there are four that span a volume. Returns false if the
+/// Minkowski difference is flat; `across` is then perpendicular to it.
 bool PenetrationSearch::complete(const Simplex& simplex, Vec64& across) {
   int& count = polytope_.vertex_count;
   const auto p = [&](int i) -> const Vec32& { return polytope_.vertex[i].difference; };
@@ -222,8 +226,9 @@ bool PenetrationSearch::complete(const Simplex& simplex, Vec64& across) {
     const Vec32 edge = subtract(p(1), p(0));
     const auto aside = [&](const Vec32& q) { return !is_zero(cross(edge, subtract(q, p(0)))); };
     const uint32_t x = magnitude_32(edge.x), y = magnitude_32(edge.y), z = magnitude_32(edge.z);
-    // `axis` is the coordinate axis along which the edge's extent is least. `across` is the part of `axis`
-    // perpendicular to the edge. Of equal extents, y is taken first, then x. So level segments are separated upwards.
+    // `axis` is the coordinate axis along which the edge's extent is least; if extents are equal, y is preferred to x,
+    // and x to z. `across` is the part of `axis` perpendicular to the edge. So two horizontal segments are separated
+    // vertically.
     const Vec32 axis = y <= x && y <= z ? Vec32{0, 1, 0} : x <= z ? Vec32{1, 0, 0} : Vec32{0, 0, 1};
     const Vec64 level = cross(edge, axis);
     across = cross(scaled_to_30_bits(level), scaled_to_30_bits(edge));
@@ -287,7 +292,7 @@ void PenetrationSearch::expand() {
   }
 }
 
-/// part / whole in Q30, clamped to [0, 1]. Range: whole > 0.
+/// Returns part / whole in Q30, clamped to [0, 1]. Range: whole > 0.
 int64_t fraction(Int128 part, Int128 whole) {
   if (sign_of(part) <= 0) return 0;
   if (!(part < whole)) return k_ulp;

@@ -4,12 +4,12 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// How deeply two placed cores overlap. Lengths in ulps of the block.
+/// How deeply two placed cores overlap. Lengths are in ulps of the pair's block (support.h).
 struct Penetration {
   Vec32 normal;            ///< from A to B, Q30: the direction in which B must move
-  int32_t depth;           ///< moving B by this along the normal separates it from A, within k_penetration_slack
-  int32_t lower;           ///< no shorter translation of B separates the cores, within k_penetration_slack
-  Vec32 point_a, point_b;  ///< the deepest points of A in B and of B in A, each from its own centre
+  int32_t depth;           ///< moving B by `depth` along the normal separates the cores, within k_penetration_slack
+  int32_t lower;           ///< no translation of B by less than `lower` does so, within k_penetration_slack
+  Vec32 point_a, point_b;  ///< A's point deepest in B, and B's point deepest in A; each from its own shape's centre
   int supports;            ///< number of support points evaluated
   bool capped;             ///< the vertex cap was reached; the true depth lies between `lower` and `depth`
 };
@@ -18,12 +18,13 @@ struct Penetration {
 inline constexpr int k_penetration_vertices_max = 64;
 
 /// Error of `depth` and `lower`, ulps of the block. Both are computed from the placed vertices; `depth` is rounded up
-/// and `lower` down. The normal errs by up to k_normalise_error in each component, together by less than 6 2^-30. So
-/// the coordinate along the normal of a vertex shorter than 2^30 errs by less than 6 ulps.
+/// and `lower` down. Each component of the normal errs by up to k_normalise_error, the normal as a vector by less than
+/// 6 2^-30. So the coordinate of a vertex along the normal errs by less than 6 ulps, because a vertex is shorter than
+/// 2^30 ulps.
 inline constexpr int k_penetration_slack = 8;
 
-/// With a cylinder or cone, the search ends when `depth - lower` is at most this many ulps, which is also the error of
-/// their supports.
+/// If a core is a cylinder or cone, the search ends when `depth - lower` is at most this many ulps. The support points
+/// of such a core err by as much.
 inline constexpr int k_penetration_gap = 4;
 
 /// Finds the least translation of B (at `offset`) that separates it from A (at the block's origin), by an expanding

@@ -4,8 +4,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The outward normals of the two faces at an edge, in the shape's axes, of any length; zero for a degenerate face. The
-/// left face has the edge from its first vertex to its second in counter-clockwise order, seen from outside.
+/// The outward normals of the two faces at an edge, in the shape's axes. They have any length, and are zero for a
+/// degenerate face. Seen from outside, the counter-clockwise boundary of the left face passes the edge from its first
+/// vertex to its second.
 struct EdgeFaces {
   Vec64 left, right;
   bool flat;  ///< both faces lie in one plane: the edge is inside a flat face
@@ -15,7 +16,7 @@ struct EdgeFaces {
 /// are in the shape's axes, in 2^-30 of its unit.
 class Polytope {
  public:
-  /// Whether the convex is a box, hull or triangle without rounding.
+  /// Whether the shape is a polytope: a box, hull or triangle without rounding.
   static bool is_one(const Convex& convex);
   /// Range: is_one(convex). `convex` must outlive this object.
   explicit Polytope(const Convex& convex);
@@ -27,7 +28,8 @@ class Polytope {
   /// The faces at the edge between two neighbours.
   EdgeFaces faces(uint32_t from, uint32_t to) const;
 
-  /// Calls visit(i, j, k) for each triangle, counter-clockwise from outside. A triangle shape has two, one per side.
+  /// Calls visit(i, j, k) with the vertices of each triangle of the boundary, counter-clockwise seen from outside. A
+  /// triangle shape has two, one for each side.
   template <class Visit>
   void for_each_face(Visit&& visit) const {
     const uint32_t groups = convex_.type == ShapeType::hull ? hull_.face_count : 1;

@@ -7,7 +7,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A pair at rest in its block, A's centre at the origin.
+/// A pair of shapes at rest, placed in its block (support.h) with A's centre at the origin.
 struct RestingPair {
   int exponent;  ///< 2^exponent m is the pair's unit of length
   Vec32 offset;  ///< from A's centre to B's, in the block; with a half-space only its component along the normal
@@ -18,15 +18,16 @@ struct RestingPair {
   bool planar() const { return a.convex->type == ShapeType::half_space || b.convex->type == ShapeType::half_space; }
   /// Converts ulps of the block to 2^-46 m. Overflow: saturates.
   int64_t metres(int64_t block) const { return raw_from_block(block, exponent); }
-  /// Converts 2^-46 m to ulps of the block, rounded up; at most INT32_MAX. Range: raw >= 0.
+  /// Converts 2^-46 m to the next greater whole number of ulps of the block; at most INT32_MAX. Range: raw >= 0.
   int32_t block_above(int64_t raw) const;
 };
 
-/// Sets `pair` from two shapes at rest. Errors: bad_argument for two half-spaces; not_normalised; out_of_range for NaN
-/// and infinity, and with a half-space if a component of the offset is 2^16 m or more.
+/// Sets `pair` from two shapes and their poses. Errors: bad_argument for two half-spaces; not_normalised; out_of_range
+/// for NaN and infinity and, if one shape is a half-space, for positions 2^16 m or more apart in a component.
 Status rest(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, RestingPair& pair);
 
-/// load_cache() reads the simplex from which gjk() starts; save_cache() stores the last simplex for the next call.
+/// load_cache() sets `simplex` to the cached vertices, from which gjk() then starts. save_cache() stores the last
+/// simplex of gjk() for the next query of the pair.
 void load_cache(const DistanceCache& cache, const RestingPair& pair, Simplex& simplex);
 void save_cache(const Simplex& simplex, DistanceCache& cache);
 

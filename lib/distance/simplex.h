@@ -10,11 +10,11 @@ inline namespace DETENT_NAMESPACE {
 /// A vertex of the Minkowski difference B - A. Range: |difference| < 2^30.
 struct SimplexVertex {
   Vec32 difference;
-  CorePoint a, b;  ///< the core points whose difference it is
+  CorePoint a, b;  ///< the points of A's and B's core whose difference (b - a) this vertex is
 };
 
-/// Up to four vertices. Either their hull contains the origin, or the hull's point nearest to the origin has a positive
-/// weight of each vertex.
+/// Up to four vertices. Either their convex hull contains the origin, or all of them have a positive barycentric weight
+/// in the hull's point nearest to the origin.
 class Simplex {
  public:
   int count() const { return count_; }
@@ -63,26 +63,27 @@ class Simplex {
   SimplexVertex vertex_[4];
   int count_ = 0;
   bool holds_origin_ = false;
-  // Edge (two vertices): `edge_` runs from vertex 1 to vertex 0. Triangle (three vertices): `normal_` is perpendicular
-  // to the triangle and points from the origin towards it.
+  // Of a simplex with two vertices (an edge): `edge_` runs from vertex 1 to vertex 0; `edge_square_` is its squared
+  // length. Of a simplex with three vertices: `normal_` is perpendicular to the triangle and points from the origin
+  // towards it.
   Vec32 edge_;
   int64_t edge_square_;
   int64_t along_;  // nearest point's distance from vertex 1 times the edge's length, in (0, edge_square_)
   Vec64 normal_;
 };
 
-// Bit widths, with |a| < 2^30 and |b - a| < 2^31. Dot and cross products are below 2^62 (64 bits). A determinant is
-// below 2^92, the weight of a vertex in a triangle below 2^122, and the test of a vertex against an edge below 2^125
-// (128 bits).
+// Bit widths. For vertices a and b, |a| < 2^30 and |b - a| < 2^31. Dot and cross products are below 2^62 (64 bits). A
+// determinant is below 2^92, the weight of a vertex in a triangle below 2^122, and the test of a vertex against an edge
+// below 2^125 (128 bits).
 
-/// The sign of v . (y - a), where v is the point nearest to the origin on the edge that starts at a. The computed value
-/// is v . (y - a) times the edge's square.
+/// Returns the sign of v . (y - a), where v is the point nearest to the origin on the edge that starts at a. `square`
+/// and `along`: as Simplex::edge_square_ and along_. The sum whose sign is taken is v . (y - a) times `square`.
 inline int side_of_edge(const Vec32& a, const Vec32& edge, int64_t square, int64_t along, const Vec32& y) {
   const Vec32 displacement = subtract(y, a);
   return sign_of(Int128::product(square, dot(a, displacement)) + Int128::product(along, dot(edge, displacement)));
 }
 
-/// value 2^-n as 64 bits. Range: the result fits. Rounding: to nearest, ties up.
+/// Returns value 2^-n. Range: the result fits 64 bits. Rounding: to nearest, ties up.
 inline int64_t high_part(Int128 value, int n) { return n == 0 ? value.low_signed() : value.round_shift(n); }
 
 inline bool Simplex::insert(const SimplexVertex& vertex) {
@@ -178,8 +179,8 @@ inline void Simplex::reduce_tetrahedron() {
   const int volume = sign_of(dot(normals[0], ad));
   bool outside = volume == 0;
   for (int i = 0; i < 3; ++i) {
-    // The origin is outside a face if the fourth vertex is on the other side of the face. A flat tetrahedron has no
-    // inside.
+    // The origin is outside a face if the origin and the fourth vertex lie on opposite sides of it. A flat tetrahedron
+    // has no inside.
     const int side = sign_of(dot(normals[i], a));
     if (volume != 0 && side != volume) continue;
     outside = true;

@@ -7,10 +7,12 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The rim point of a disc of radius `radius` in the direction (x, z), at height y.
+/// Returns the point of a disc's rim that is farthest along `direction`. The disc is perpendicular to the y axis, at
+/// height `y`.
 CorePoint rim_point(int32_t radius, int32_t y, const Vec32& direction) {
   if ((direction.x | direction.z) == 0) return {{0, y, 0}, k_no_feature};
-  const Vec32 across = scaled_to_30_bits(Vec32{direction.x, 0, direction.z});  // a short vector's length is too coarse
+  // Scaled, because the rounded length of a short vector would be too coarse.
+  const Vec32 across = scaled_to_30_bits(Vec32{direction.x, 0, direction.z});
   const int64_t length = length_across(across);
   const auto part = [&](int32_t a) {
     const int64_t product = int64_t{radius} * a;

@@ -17,7 +17,7 @@ struct CorePoint {
 };
 inline constexpr uint8_t k_no_feature = 255;
 
-/// The vertex `feature` of the core. False if there is no such vertex.
+/// Sets `point` to the vertex `feature` of the core. Returns false if there is no such vertex.
 bool core_vertex(const Convex& convex, uint8_t feature, CorePoint& point);
 
 /// A view of the convex's hull; empty for other shapes.
@@ -25,7 +25,7 @@ inline HullView hull_of(const Convex& convex) {
   return convex.type == ShapeType::hull ? hull_view(convex.hull) : HullView{};
 }
 
-/// The coordinates of a hull's vertices along a direction, exact.
+/// Computes the coordinates of a hull's vertices along a direction: exact dot products, in the hull's axes.
 class HullHeights {
  public:
 #if defined(__OPTIMIZE_SIZE__)
@@ -53,26 +53,27 @@ class HullHeights {
 #endif
 };
 
-/// The core's point farthest along `direction`, both in the shape's axes. `hull`: hull_of(convex), computed once for
-/// many calls. `start`: the vertex from which hill climbing starts on a large hull, best the last result; any value is
-/// safe. Ties: the same arguments always give the same point. Exact except for cylinders and cones, whose points err by
-/// 1 in each component. Range: 0 < |direction| < 2^31. The result for a half-space is its origin.
+/// Returns the core's point farthest along `direction`; both are in the shape's axes. `hull`: hull_of(convex), computed
+/// once for many calls. `start`: the vertex from which hill climbing starts on a large hull; any value is safe, and the
+/// last result is the fastest. Ties: the same arguments always give the same point. Exact except for cylinders and
+/// cones, whose points err by 1 in each component. Range: 0 < |direction| < 2^31. The result for a half-space is its
+/// origin.
 CorePoint local_support(const Convex& convex, const HullView& hull, const Vec32& direction, uint8_t start);
 inline CorePoint local_support(const Convex& convex, const Vec32& direction) {
   return local_support(convex, hull_of(convex), direction, 0);
 }
 /// local_support() for hulls.
 CorePoint hull_support(const HullView& hull, const Vec32& direction, uint32_t start);
-/// Hulls with more vertices use hill climbing instead of a linear search.
+/// Hulls with more vertices than this use hill climbing instead of a linear search.
 inline constexpr uint32_t k_climbing_vertices = 8;
 
-/// A core in a block, relative to its own centre.
+/// A core, rotated and scaled to a pair's block. Its points are relative to the core's own centre.
 class Placed {
  public:
   const Convex* convex;
   HullView hull;  ///< hull_of(*convex)
   Matrix32 rotation;
-  int shift;      ///< number of bits that the shape's own coordinates lose in the block, >= 0
+  int shift;      ///< >= 0: the pair's unit of length is 2^shift times the shape's own unit
   Vec32 axis[3];  ///< box and capsule: the rotation's columns times the half extents
 
   /// Converts a core point from the shape's axes to the block. Error: k_placing_error in each component.
@@ -80,11 +81,12 @@ class Placed {
     if (convex->type == ShapeType::box) return box_point(local.x >> 31, local.y >> 31, local.z >> 31);
     return other_point(local);
   }
-  /// As point(), for hulls and triangles.
+  /// As point(), for hulls, triangles, cylinders and cones.
   Vec32 turned(const Vec32& local) const {
     return shift > 32 ? Vec32{0, 0, 0} : round_shift(multiply(rotation, local), 30 + shift);
   }
-  /// The vertex of a box. A coordinate is negative if its argument is -1, and positive if its argument is 0.
+  /// Returns the vertex of a box, in the block. The arguments are the signs of the vertex's coordinates in the box's
+  /// axes: -1 for negative, 0 for positive.
   Vec32 box_point(int32_t x, int32_t y, int32_t z) const {
     const auto sum = [&](int32_t a, int32_t b, int32_t c) { return ((a ^ x) - x) + ((b ^ y) - y) + ((c ^ z) - z); };
     return {sum(axis[0].x, axis[1].x, axis[2].x), sum(axis[0].y, axis[1].y, axis[2].y),
@@ -94,35 +96,39 @@ class Placed {
  private:
   Vec32 other_point(const Vec32& local) const;
 };
-inline constexpr double k_placing_error = 1.5;  ///< ulps of the block: a box's point is the sum of three rounded axes
+/// Error of Placed::point() in each component, ulps of the block: a box's point is the sum of three rounded axes.
+inline constexpr double k_placing_error = 1.5;
 
-/// An upper bound of |v|, too large by at most 1.6 % and 2. Range: |v|^2 < 2^63.
+/// Returns an upper bound of |v|, which exceeds |v| by at most 1.6 % plus 2. Range: |v|^2 < 2^63.
 inline int64_t length_bound_32(const Vec32& v) { return square_root_bound(static_cast<uint64_t>(dot(v, v))); }
 /// The length of (v.x, v.z), rounded to nearest.
 inline int64_t length_across(const Vec32& v) {
   return square_root_nearest(static_cast<uint64_t>(int64_t{v.x} * v.x) + static_cast<uint64_t>(int64_t{v.z} * v.z));
 }
 
-/// The largest value of direction . p over the points p of the core, and rate . p at the same p. Both vectors are in
-/// the shape's axes. Updates `start`.
+/// The result of support_value(). `value`: the largest value of direction . p over the points p of the core. `rate`:
+/// rate . p at the same p. Both vectors are in the shape's axes. `start`: as for local_support(); set to the feature of
+/// p, unless the shape is a sphere, half-space, capsule or box.
 struct SupportValue {
   int64_t value, rate;
 };
 SupportValue support_value(const Convex& convex, const HullView& hull, const Vec32& direction, const Vec32& rate,
                            uint8_t& start);
 
+/// Places a core in a block whose unit of length is 2^pair_exponent m. `rotation`: from the shape's axes to the
+/// world's. `convex` must outlive the result.
 Placed place(const Convex& convex, const Matrix32& rotation, int pair_exponent);
 
 struct SupportPoint {
   Vec32 point;  ///< in the block, from the shape's centre
   CorePoint core;
 };
-/// The placed core's point farthest along `direction`, world axes. `start` as for local_support().
+/// Returns the placed core's point farthest along `direction` (world axes). `start`: as for local_support().
 /// Range: 0 < |direction| < 2^31.
 inline SupportPoint support(const Placed& placed, const Vec32& direction, uint8_t start = 0);
 
-/// A box's vertex from the signs of its coordinates (-1: negative, 0: positive). Bit i of the feature is set if
-/// coordinate i is negative.
+/// Returns the vertex of a box whose coordinates have the given signs (-1: negative, 0: positive). Bit i of its
+/// `feature` is set if coordinate i is negative.
 inline CorePoint box_vertex(const Convex& box, int32_t x, int32_t y, int32_t z) {
   const int32_t* size = box.size;
   return {{(size[0] ^ x) - x, (size[1] ^ y) - y, (size[2] ^ z) - z}, static_cast<uint8_t>((x & 1) | (y & 2) | (z & 4))};

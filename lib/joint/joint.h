@@ -18,8 +18,8 @@
 /// so the speed of the row is J v = axis . (v_B - v_A) + arm_B . w_B - arm_A . w_A, and an impulse x of the row applies
 /// the wrench J^T x. C is the position error of the row (JointRows::error). joint_rows.cpp has the J and C of each
 /// joint, joint_drives.cpp its limits, motors, springs and friction. An *assembly* is a set of bodies that joints
-/// connect, directly or through other mobile bodies, and these joints. All rows of an assembly are solved at once, for
-/// any graph of joints:
+/// connect, directly or through other mobile bodies, together with these joints. All rows of an assembly are solved at
+/// once, for any graph of joints:
 ///
 ///     (K + S) x = target - J v,  K = J M^-1 J^T
 ///
@@ -28,10 +28,10 @@
 /// minimum degree (joint_order.cpp, joint_factor.h). Each substep computes the factor anew.
 ///
 /// A substep adds no energy (joint_solve.cpp). It begins with the impulses of the last substep, scaled down until they
-/// add none. Solving the rows then projects the velocities, which only removes energy.
-/// Then the solver adds velocities that make the joints follow their curved paths. These velocities are scaled so that
-/// they add at most the energy that the projection has removed. Shifts of the bodies correct position errors; they keep
-/// the bodies' velocities and angular momenta, except that a body whose energy a shift would raise is slowed down.
+/// add no energy. The solve of the rows then projects the velocities, which only removes energy. Then the solver adds
+/// velocities that make the joints follow their curved paths. These velocities are scaled so that they add at most the
+/// energy that the projection has removed. Shifts of the bodies correct position errors; they keep the bodies'
+/// velocities and angular momenta, except that a body whose energy a shift would raise is slowed down.
 /// Sources: Baraff, "Linear-time dynamics using Lagrange multipliers", SIGGRAPH 1996; Tournier, Nesme, Gilles, Faure,
 /// "Stable constrained dynamics", 2015; George, Liu, "The evolution of the minimum degree ordering algorithm", 1989.
 namespace detent {
@@ -51,7 +51,7 @@ inline constexpr Real k_joint_impulse_max = 16384.0;
 /// the number of substeps.
 inline constexpr int k_kept_power = 3;
 
-/// Converts lengths, m, or speeds, m/s, to units of 2^exponent, clamped to the range of a Unit.
+/// Converts the components of `v`, m or m/s, to units of 2^exponent m or m/s. Overflow: clamps to the range of a Unit.
 Vec3<Unit> clamped_unit(const Vec3<Real>& v, int exponent);
 
 struct JointStage {
@@ -59,7 +59,7 @@ struct JointStage {
   Span<const BodyPose> poses;
   Span<BodyActivity> activities;
   Span<JointWork> work;    ///< the active joints, in the order of their slots
-  Span<JointLanes> lanes;  ///< of the active joints, on machines that may have lanes
+  Span<JointLanes> lanes;  ///< rows of the active joints by lanes; used only if DETENT_JOINT_LANES is 1
   Span<JointBody> bodies;  ///< the bodies of the active joints
   /// Indices into `work`: by island, assembly by assembly, in the order of elimination.
   Span<uint32_t> order;
@@ -86,9 +86,9 @@ void collect_joints(const SolverBodies& bodies, JointStage& stage);
 uint32_t order_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                       Span<Island> islands, JointStage& stage);
 
-/// Begins a substep of an island, `elapsed`, s, after the start of the tick. Makes the joints' rows, stores the bodies'
-/// velocities before anything acts in the substep, and sets the bodies' inverse inertias, which joints and contacts
-/// both use in the substep.
+/// Begins a substep of an island, `elapsed`, s, after the start of the tick: makes the joints' rows, and stores the
+/// velocities that the bodies have before anything acts in the substep. Also sets the bodies' inverse inertias for the
+/// substep, which joints and contacts both use.
 void begin_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
                   JointStage& stage);
 
@@ -124,8 +124,8 @@ uint32_t shift_joints(const SolverBodies& bodies, const Island& island, JointSta
 uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
                     Real enough, JointStage& stage, uint32_t& undecided);
 
-/// Stores the forces and torques of the joints in the tick. A motor that moves its joint keeps the bodies from counting
-/// as at rest, however slow it is.
+/// Stores the forces and torques of the joints in the tick. A body whose motor moves its joint does not count as at
+/// rest, however slowly the motor moves.
 void store_reactions(const StepSettings& settings, const SolverBodies& bodies, JointStage& stage);
 
 /// Entry of the feature table.
@@ -185,11 +185,12 @@ inline void with_rows(uint32_t rows, const Visit& visit) {
   visit(rows);
 }
 
-/// The distance, in numbers, from one row of a coupling's block to the next. `rows`: number of rows of the coupling's
+/// The distance, in elements, from one row of a coupling's block to the next. `rows`: number of rows of the coupling's
 /// joint that is eliminated later.
 constexpr uint32_t block_stride(uint32_t rows) { return !DETENT_JOINT_LANES ? rows : rows > 4 ? 8 : 4; }
 
-/// Sets the lowest number of substeps for the joints of an island, and the squared number that their motion needs.
+/// Sets Island::substeps to the least number of substeps that the joints permit, and Island::joint_need to the square
+/// of the number that their motion needs.
 void require_substeps(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                       const JointStage& stage, Island& island);
 
@@ -240,33 +241,34 @@ void make_joint_rows(const JointStage& stage, const JointWork& work, uint32_t mo
 /// Chooses the drive mode of each free motion, before the first solve of the substep. Activates each limit that the
 /// motion would pass in this substep.
 void choose_drives(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointWork& work);
-/// Whether the impulse of a motor, spring or friction exceeds its limit in the substep. If `changes`, replaces the row
-/// by a constant impulse at that limit.
+/// Whether the impulse of a motor, spring or friction exceeds its limit in the substep. If `changes` is true, replaces
+/// the row of such a drive by a constant impulse at that limit.
 bool bound_drives(const JointState& joint, Scaled share, bool changes, JointWork& work);
 /// Whether the free motion is locked or at a limit.
 inline bool is_at_limit(DriveMode mode) {
   return mode == DriveMode::held || mode == DriveMode::lower || mode == DriveMode::upper;
 }
-/// Whether the row locks a motion. The row of an active limit does.
+/// Whether the row locks a motion: it always acts, or it is the row of an active limit.
 inline bool is_locked(const JointWork& work, uint32_t row) {
   return row < work.locked_rows || (work.driven[0] == row && is_at_limit(work.mode[0])) ||
          (work.driven[1] == row && is_at_limit(work.mode[1]));
 }
 /// Activates each limit that the bodies, at their current velocities, would pass by more than k_passed. A motor or
-/// friction that acts with its greatest force gets a row again if it drives the motion beyond its target speed. It gets
-/// no row again while contacts may still load it in this substep (`loads`), because contacts and joints are solved in
-/// alternation. Returns whether a drive mode changed.
+/// friction that acts with its greatest force gets a row again if it drives the motion beyond its target speed. While
+/// `loads` is true, it gets no row again: contacts and joints are solved in alternation, and the contacts may still
+/// load it in this substep. Returns whether a drive mode changed.
 bool take_up(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, bool loads,
              JointWork& work);
 /// Whether a motor or friction of the joint acts with its greatest force, so that it may drive a motion beyond its
 /// target speed.
 bool may_overdrive(const JointState& joint, const JointWork& work);
-/// Whether the impulse of an active limit pulls, which a limit cannot. If `changes`, deactivates the first such limit.
+/// Whether the impulse of an active limit pulls the motion towards the limit, which a limit cannot do. If `changes` is
+/// true, deactivates the first such limit.
 bool release_limits(const JointState& joint, bool changes, JointWork& work);
-/// Adds the rows of the driven free motions.
+/// Adds the rows of the driven free motions after the rows that always act, and sets their targets.
 void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                      JointWork& work);
-/// The linear impulse of the joint on B in the current substep, in the unit of the joint's linear rows.
+/// The linear impulse of the joint on B so far in the current substep, in the unit of the joint's linear rows.
 Vec3<Real> linear_impulse(const JointWork& work);
 /// The magnitude of `impulse`, which is in the unit of the joint's linear rows, divided by the mass of the lighter
 /// body, m/s. Overflow: clamps to k_joint_impulse_max.

@@ -57,7 +57,8 @@ bool has_slide(const JointState& joint) {
   return type == JointType::slider || type == JointType::wheel;
 }
 
-/// The arm of A, m. `between`: from A's centre to B's.
+/// An upper bound of the length of A's arm, m. With a slide, the arm reaches to B's anchor. `between`: from A's centre
+/// to B's, m.
 Real arm_of_a(const JointState& joint, const Vec3<Real>& between) {
   Real displacement = Real(0.0);
   if (has_slide(joint)) displacement = scale_by_power(absolute_sum(between) + absolute_sum(joint.anchor_b), 1);
@@ -65,8 +66,8 @@ Real arm_of_a(const JointState& joint, const Vec3<Real>& between) {
 }
 
 #if DETENT_SPARSE
-/// Adds the fixed and kinematic bodies of the joints in JointStage::anchoring. Two reasons: the unit of such a body
-/// must fit the arms of all its joints, and contacts ask whether a body has joints.
+/// Adds the fixed and kinematic bodies of the joints in JointStage::anchoring. They are needed because the unit of such
+/// a body must fit the arms of all its joints, and because contacts ask whether a body has joints.
 void collect_anchors(const SolverBodies& bodies, JointStage& stage) {
   stage.anchoring.for_each([&](uint32_t slot) {
     const JointState& joint = stage.others[slot];

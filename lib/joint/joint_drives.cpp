@@ -10,10 +10,11 @@ namespace {
 /// During the solves of a substep, a limit is activated if the free motion would pass it by more than k_passed: rad for
 /// an angle, k_passed times the joint's unit of length for a length.
 constexpr Real k_passed = 0.03125;
-/// Tolerance of the target speed of motors and friction, m/s.
+/// A motor or friction drives a motion beyond its target speed if the motion exceeds that speed by more than
+/// k_overdriven, m/s.
 constexpr Real k_overdriven = 0x1p-10;
-/// A limit pulls if its impulse does so by more than this, in the unit of its row. Less may be a rounding error,
-/// because a limit bears nothing of the motor that holds the joint at it.
+/// A limit counts as pulling if its impulse pulls by more than k_pulled, in the unit of its row. A smaller impulse may
+/// be a rounding error: the impulse of a motor that pushes the joint against the limit is not in the limit's row.
 constexpr Real k_pulled = 0x1p-20;
 
 /// The response K of a single row, in the joint's unit of impulses.
@@ -103,7 +104,8 @@ Real speed_of(const JointStage& stage, const JointWork& work, int i) {
 }
 
 /// speed_of() at the start of the substep, before forces, damping and the stored impulses of contacts have acted. The
-/// damper of a spring acts on this speed. On a later speed it would carry a part of these forces and impulses.
+/// damper of a spring acts on this speed. If the damper acted on the speed after them, it would bear a part of these
+/// forces and impulses.
 Real speed_before(const SolverBodies& bodies, const JointStage& stage, const JointWork& work, int i) {
   const JointRow& row = work.free_row[i];
   Real speed = k_zero;
@@ -122,8 +124,7 @@ Real speed_before(const SolverBodies& bodies, const JointStage& stage, const Joi
 }
 
 /// Replaces the row of a spring by a constant impulse, if the spring is soft relative to the substep. The impulse
-/// follows from the current displacement and speed. This way the oscillation loses no energy. A stiffer spring keeps
-/// its row.
+/// follows from the current displacement and speed, so the oscillation loses no energy. A stiff spring keeps its row.
 void push_softly(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
                  JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
@@ -156,9 +157,9 @@ Real standing_pull(const StepSettings& settings, const SolverBodies& bodies, con
   return clamp(to_real(divide(pull, response), saturated), -most, most);
 }
 
-/// Combines friction with a spring. A soft spring is a constant impulse, and friction has the row. For a stiff spring
-/// there are two cases. If friction can carry the spring's impulse, friction has the row and locks the motion.
-/// Otherwise the spring has the row, and friction is a constant impulse.
+/// Combines friction with a spring on the same free motion, which has only one row. A soft spring acts as a constant
+/// impulse, and friction gets the row. If friction can bear the impulse of a stiff spring, friction gets the row and
+/// locks the motion. Otherwise the spring gets the row, and friction acts as a constant impulse.
 void brake_spring(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
                   JointWork& work) {
   if (work.mode[i] == DriveMode::constant) {
@@ -200,7 +201,7 @@ Real push_off_limit(const StepSettings& settings, const SolverBodies& bodies, co
   return up ? max(push, k_zero) : min(push, k_zero);
 }
 
-/// Whether a motor or friction acts on the motion with its greatest force.
+/// Whether a motor or friction acts on free motion `i` with its greatest force.
 bool is_at_greatest_force(const JointState& joint, int i, const JointWork& work) {
   if (work.mode[i] != DriveMode::constant) return false;
   const DriveMode mode = free_mode(joint, i);
@@ -217,7 +218,8 @@ bool overdrives(const JointStage& stage, int i, const JointWork& work) {
   return push > k_zero ? beyond > k_overdriven : beyond < -k_overdriven;
 }
 
-/// The limit that a free motion would pass by more than `passed` in the substep; if there is none, its current mode.
+/// The limit that a free motion would pass by more than `passed` in the substep. If it would pass none, returns its
+/// current mode.
 DriveMode mode_at_limit(const StepSettings& settings, const JointStage& stage, int i, Real passed,
                         const JointWork& work) {
   const JointState& joint = stage.joints[work.joint];

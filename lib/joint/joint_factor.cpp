@@ -5,10 +5,10 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 /// The softness of a row is added to the row's diagonal element. It is 2^k_softness_power times the largest diagonal
-/// element of the joint's rows of the same kind (linear or angular). In `f32` it is as small as the precision permits.
-/// The pivot of a redundant row is only its softness; the effect of this row is below the precision of the numbers.
-/// Rows of drives use k_soft_power, so they yield before locked rows. After make_softer() all rows use k_soft_power.
-/// Each further call multiplies the softness by 2^k_softer_step.
+/// element of the joint's rows of the same kind (linear or angular). In `f32` the softness is as small as the precision
+/// permits. The pivot of a redundant row is only its softness, and the effect of the row is below the precision of the
+/// numbers. Rows of drives use k_soft_power, so they yield before locked rows. After make_softer() all rows use
+/// k_soft_power. Each further call multiplies the softness by 2^k_softer_step.
 #if defined(DETENT_F32)
 constexpr int k_softness_power = -20;
 #else
@@ -77,7 +77,7 @@ inline void with_sizes(uint32_t height, uint32_t width, const Visit& visit) {
 
 using Rows = Real[k_joint_rows_max][k_joint_rows_max];
 
-/// The product of the first `count` elements of two vectors; the elements of the first are `stride` apart.
+/// The dot product of the first `count` elements of two vectors. The elements of `a` are `stride` apart.
 template <class Count>
 DETENT_SHARED inline Real product(Count count, uint32_t stride, const Real* a, const Real* b) {
   const uint32_t elements = count;
@@ -104,7 +104,7 @@ inline void each_product(Height height, Width width, const Real* block, const Re
   for (uint32_t i = first; i < columns; ++i) visit(i, sum[i].value());
 #endif
 }
-/// As above, for the blocks of joints that have only the rows of the anchor points: all sums are in registers.
+/// each_product() for a block of two joints that have only the rows of the anchor points: all sums are in registers.
 template <class Visit>
 inline void each_product(ConstantRows<3> height, ConstantRows<3> width, const Real* block, const Real* v,
                          uint32_t first, const Visit& visit) {
@@ -112,7 +112,7 @@ inline void each_product(ConstantRows<3> height, ConstantRows<3> width, const Re
   for (uint32_t i = first; i < 3; ++i) visit(i, product(height, width, block + i, v));
 }
 
-/// Multiplies a coupling's block by L^-1, with the L of the own block of the joint `work`.
+/// Multiplies a coupling's block by L^-1. L is the factor of the own block of the joint `work`.
 template <class Height, class Width>
 inline void divide_block(const JointWork& work, Height height, Width width, Real* block) {
   const uint32_t rows = height, columns = width;
@@ -121,7 +121,8 @@ inline void divide_block(const JointWork& work, Height height, Width width, Real
   }
 }
 
-/// Adds the magnitudes of the fill-in between two joints without a coupling to the diagonals of both joints.
+/// Adds the magnitudes of the fill-in between two joints to the diagonals of both joints, because there was no room for
+/// their coupling.
 void make_up_product(uint32_t rows, const Real* block, const Rows& scaled, JointWork& third, JointWork& other) {
   for (uint32_t i = 0; i < third.rows; ++i) {
     for (uint32_t m = 0; m < other.rows; ++m) {
@@ -150,7 +151,7 @@ void choose_unit([[maybe_unused]] const JointStage& stage, JointWork& work) {
     const JointBody& body = stage.bodies[work.body[end]];
     if (body.mobile == 0) continue;
     if (is_rod) {
-      // A rod's direction may rotate in the tick, and its response with it up to this bound.
+      // The direction of a rod may rotate in the tick. The response of its row may then grow up to this bound.
       const Real trace = body.turned[0].x + body.turned[1].y + body.turned[2].z;
       response[0] += body.pushed + trace * work.arm_length[end] * work.arm_length[end];
       continue;

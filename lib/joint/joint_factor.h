@@ -4,7 +4,7 @@
 #include "joint/joint_lanes.h"
 #include "math/scaled.h"
 
-/// The factor of all joints of an assembly: L D L^T, in blocks, of the matrix K + S (joint.h). The block of a joint's
+/// The factor L D L^T, in blocks, of the matrix K + S (joint.h) of all joints of an assembly. The block of a joint's
 /// own rows is in JointWork::response, the blocks of its couplings with other joints are in JointStage::numbers.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -14,7 +14,7 @@ inline int unit_power([[maybe_unused]] const JointWork& work, [[maybe_unused]] u
   return DETENT_FIXED ? work.row_power[row] : 0;
 }
 
-/// Twice an energy over the reference mass: a sum of products of impulses and speeds.
+/// Twice an energy, divided by the reference mass: a sum of products of impulses and speeds.
 class EnergySum {
  public:
 #if DETENT_FIXED
@@ -24,7 +24,8 @@ class EnergySum {
     const bool negative = sum_ < Int128::from(0);
     const Int128 size = negative ? -sum_ : sum_;
     if (size.high_word() == 0) return from(negative, size.low_word(), 0);
-    const int shift = bit_length_64(static_cast<uint64_t>(size.high_word())) + 1;  // it still fits after rounding up
+    // One bit more than the length, so that the mantissa still fits after rounding up.
+    const int shift = bit_length_64(static_cast<uint64_t>(size.high_word())) + 1;
     return from(negative, static_cast<uint64_t>(size.round_shift(shift)), shift);
   }
 
@@ -116,7 +117,7 @@ inline bool gather(const JointStage& stage, const JointWork& work) {
       }
     });
     const Real share = end == 0 ? -body.inverse_mass : body.inverse_mass;
-    // The fourth lane is `pushed`, or an element of kept_rotation: 0 is added to it.
+    // The fourth lane is the next member of JointBody: `pushed`, or an element of kept_rotation. 0 is added to it.
     const RowFour push = load_four(&body.push.x) + force * spread(share);
     const RowFour twist = load_four(&body.twist.x) + torque * spread(scaled_by_power(share, body.above));
     store_four(push, &body.push.x);
@@ -152,7 +153,7 @@ inline bool gather(const JointStage& stage, const JointWork& work) {
     bool saturated = false;
     const Vec3<Real> v = multiply(sum, factor, saturated);
     fits = fits && !saturated && greatest(v) <= k_gathered_max;
-    if (!fits) return;  // the sum could overflow
+    if (!fits) return;  // the sum with `to` could overflow
 #else
     const Vec3<Real> v = multiply(sum, factor);
 #endif
@@ -220,8 +221,9 @@ class JointFactor {
   void each_coupling(const JointWork& work, const Visit& visit) const {
     for (uint32_t at = work.coupling; at != k_no_link; at = stage_.couplings[at].next[0]) visit(stage_.couplings[at]);
   }
-  /// Visits the further couplings of the coupling's first joint. Also passes the block that couples the other joints of
-  /// both couplings, or null if there was no room for it. Blocks are in the order of elimination of the other joint.
+  /// Visits the couplings of joint[0] of `coupling` that follow `coupling`. With each, passes the block that couples
+  /// joint[1] of both couplings, or null if there was no room for that block. Blocks are sorted by the elimination
+  /// order of joint[1].
   template <class Visit>
   void each_pair(const JointCoupling& coupling, const Visit& visit) {
     uint32_t between = stage_.work[coupling.joint[1]].coupling;

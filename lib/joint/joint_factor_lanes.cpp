@@ -7,15 +7,15 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Subtracts row_sum() from a row.
+/// Subtracts row_sum() from the row that starts at `row`.
 template <bool wide, class Height>
 inline void subtract_rows(const CouplingBlock<wide>& block, Height height, const Real* factor, uint32_t stride,
                           Real* row) {
   (RowLanes<wide>::from(row) - row_sum(block, height, factor, stride)).store(row);
 }
 
-/// The products of up to four rows of a block, from `first` on, with a vector. Further lanes of the result are not
-/// used.
+/// The products of up to four rows of a block, from `first` on, with a vector. If the block has fewer rows, the further
+/// lanes of the result are not used.
 template <bool wide, class Height>
 inline RowFour products(const CouplingBlock<wide>& block, uint32_t first, Height height, const RowLanes<wide>& v) {
   const uint32_t rows = height;
@@ -41,7 +41,8 @@ inline void subtract_products(const CouplingBlock<wide>& block, Height height, c
     store_pair(load_pair(rest + k_rows_of_four) - products(block, k_rows_of_four, height, v), rest + k_rows_of_four);
 }
 
-/// Adds the magnitudes of the fill-in between two joints, for which there was no room, to the diagonals of both joints.
+/// Adds the magnitudes of the fill-in between two joints to the diagonals of both joints, because there was no room for
+/// their coupling.
 template <bool wide>
 void make_up_fill(const JointWork& third, const JointWork& other, const CouplingBlock<wide>& block, uint32_t height,
                   const Real (&scaled)[k_joint_rows_max][k_row_room], JointLanes& of_third, JointLanes& of_other) {
@@ -72,7 +73,7 @@ void JointFactor::add_responses_of_end(JointWork& work, uint32_t end) {
   const JointBody& body = stage_.bodies[work.body[end]];
   if (body.mobile == 0) return;
   JointLanes& lanes = lanes_of(stage_, work);
-  // The motion by a unit impulse of each row.
+  // Velocity (0 to 2) and angular velocity (3 to 5) of the body by a unit impulse of each row.
   RowLanes<wide> motion[6];
   for (int i = 0; i < 3; ++i) {
     motion[i] = RowLanes<wide>::from(lanes.column[end][i]) * body.pushed;
@@ -149,7 +150,7 @@ void JointFactor::eliminate_couplings(JointWork& work, Height height) {
   each_coupling(work, [&](const JointCoupling& coupling) {
     const JointWork& other = stage_.work[coupling.joint[1]];
     JointLanes& lanes_of_other = lanes_of(stage_, other);
-    Real scaled[k_joint_rows_max][k_row_room];  // the block over the pivots
+    Real scaled[k_joint_rows_max][k_row_room];  // the block's rows divided by their pivots
     with_width(is_wide(other), [&](auto width) {
       const CouplingBlock<decltype(width)::wide> block = {block_of(coupling)};
       for (uint32_t k = 0; k < rows; ++k) (block.at(k) * work.inverse[k]).store(scaled[k]);

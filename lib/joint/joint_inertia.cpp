@@ -48,7 +48,7 @@ Vec3<Real> linear_sum(const JointRows& rows, const Real (&impulse)[k_joint_rows_
   return sum;
 }
 
-/// The magnitude of an impulse. Tiny components count as 0, so that their squares do not underflow.
+/// The magnitude of an impulse. Components below 2^-40 count as 0, so that their squares do not underflow.
 Real magnitude_of(const Vec3<Real>& impulse) {
   return length({zero_if_tiny(impulse.x), zero_if_tiny(impulse.y), zero_if_tiny(impulse.z)});
 }

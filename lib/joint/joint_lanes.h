@@ -20,7 +20,7 @@ inline bool is_wide(const JointWork& work) { return work.rows > k_rows_of_four; 
 inline RowFour spread(Real a) { return RowFour{a, a, a, a}; }
 inline RowFour load_four(const Real* from) { return *reinterpret_cast<const StoredRowFour*>(from); }
 inline void store_four(const RowFour& v, Real* to) { *reinterpret_cast<StoredRowFour*>(to) = v; }
-/// Rows 4 and 5, and two zeros.
+/// Loads the numbers of rows 4 and 5, followed by two zeros.
 inline RowFour load_pair(const Real* from) { return RowFour{from[0], from[1], 0, 0}; }
 inline void store_pair(const RowFour& v, Real* to) {
   to[0] = v[0];
@@ -30,7 +30,7 @@ typedef int32_t RowWords __attribute__((vector_size(16)));
 /// Masks that select all bits but the sign: of all lanes, or of the first three lanes.
 inline constexpr RowWords k_sizes = {INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX};
 inline constexpr RowWords k_sizes_of_three = {INT32_MAX, INT32_MAX, INT32_MAX, 0};
-/// Whether the magnitude of each lane that `sizes` keeps is within the limit.
+/// Whether the magnitude of each lane that the mask `sizes` selects is at most `limit`.
 inline bool are_within(const RowFour& v, Real limit, const RowWords& sizes) {
   typedef int64_t Halves __attribute__((vector_size(16)));
   const RowFour size = reinterpret_cast<RowFour>(reinterpret_cast<RowWords>(v) & sizes);
@@ -46,7 +46,7 @@ inline void transpose(RowFour& a, RowFour& b, RowFour& c, RowFour& d) {
   d = __builtin_shufflevector(high_ab, high_cd, 2, 3, 6, 7);
 }
 
-/// A number of each row of a joint.
+/// One number for each row of a joint.
 template <bool wide>
 struct RowLanes {
   RowFour low = {}, high = {};
@@ -75,7 +75,7 @@ struct RowLanes {
     store_four(low, numbers);
     if constexpr (wide) store_four(high, numbers + k_rows_of_four);
   }
-  /// Adds a row times a factor.
+  /// Adds `row` times `factor`.
   void add(const RowLanes& row, Real factor) {
     low += row.low * spread(factor);
     if constexpr (wide) high += row.high * spread(factor);
@@ -125,7 +125,7 @@ inline RowLanes<wide> column_sum(const Real (&column)[6][k_row_room], int first,
   sum.add(RowLanes<wide>::from(column[first + 2]), v.z);
   return sum;
 }
-/// One body's part of J v. The caller must negate the part of A.
+/// One body's part of J v, with J given by its columns. The caller must negate the part of A.
 template <bool wide>
 inline RowLanes<wide> shown(const Real (&column)[6][k_row_room], const JointBody& body) {
   return column_sum<wide>(column, 0, body.linear_velocity) + column_sum<wide>(column, 3, body.angular_velocity);
@@ -145,7 +145,8 @@ inline RowLanes<wide> joint_speeds(const JointStage& stage, const JointWork& wor
 /// Fills the rows and columns of a joint's Jacobian. Rows that the joint does not have are 0.
 inline void fill_lanes(const JointWork& work, JointLanes& lanes) {
   constexpr RowWords k_first_three = {-1, -1, -1, 0};
-  const auto vector = [](const Vec3<Unit>& v) {  // all vectors of JointRows are followed by further numbers
+  // Loads four numbers and clears the last. In JointRows, further numbers follow every vector.
+  const auto vector = [](const Vec3<Unit>& v) {
     return reinterpret_cast<RowFour>(reinterpret_cast<RowWords>(load_four(&v.x)) & k_first_three);
   };
   for (uint32_t end = 0; end < 2; ++end) {

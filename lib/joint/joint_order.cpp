@@ -97,8 +97,8 @@ class Eliminator {
   /// First joint in the list of each degree.
   uint32_t head_[k_degrees];
 
-  /// Whether the two joints connect the same two bodies, and are coupled at their other body, because it is mobile and
-  /// its index is below `place`.
+  /// Whether two joints of the body `place` also share their other body and have been coupled there: that body is
+  /// mobile, and its index is below `place`.
   bool is_coupled_before(uint32_t one, uint32_t other, uint32_t place) const {
     const JointWork &p = stage_.work[one], &q = stage_.work[other];
     const auto holds = [](const JointWork& work, uint32_t body) {
@@ -175,7 +175,8 @@ class Eliminator {
     for (uint32_t other; (other = next_neighbour(link)) != k_no_link;) visit(other);
   }
 
-  /// Eliminates a joint: couples its neighbours with each other, if they are not coupled yet.
+  /// Eliminates a joint, as number `place` of the order: couples its neighbours with each other, if they are not
+  /// coupled yet.
   void eliminate(uint32_t joint, uint32_t place) {
     stage_.work[joint].place = place;
     each_neighbour(joint, [&](uint32_t one) {
@@ -219,8 +220,9 @@ uint32_t list_assembly(uint32_t joint, JointStage& stage, uint32_t* order) {
   return count;
 }
 
-/// Chooses the reference mass of the assembly such that, in fixed point, the largest response of its bodies is near
-/// 2^k_response_bits, for any shape of the bodies. Then impulses are as small as possible.
+/// Chooses the reference mass of the assembly. In fixed point, the largest response of its bodies is then near
+/// 2^k_response_bits, for any shape of the bodies, so that impulses are as small as possible. In float, it is the mass
+/// of the lightest body.
 void weigh(const SolverBodies& bodies, Span<const uint32_t> order, JointStage& stage) {
   Scaled most = Scaled(0.0);  // largest response to a torque
   each_mobile_body(order, stage, [&](const JointBody& body) {
@@ -235,8 +237,8 @@ void weigh(const SolverBodies& bodies, Span<const uint32_t> order, JointStage& s
                    [&](JointBody& body) { body.inverse_mass = divide(reference, bodies.properties[body.slot].mass); });
 }
 
-/// Sets the joint's ratios of masses to that of its lighter body, to which stored impulses are relative. Sets the
-/// largest impulses of motors, springs and friction.
+/// Sets the joint's mass ratios to the mass of its lighter body, because stored impulses are relative to that mass.
+/// Sets the largest impulses of motors, springs and friction.
 void weigh_joint(const StepSettings& settings, const SolverBodies& bodies, JointStage& stage, JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
   Scaled lighter = Scaled(0.0);

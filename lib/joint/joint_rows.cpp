@@ -27,7 +27,7 @@ struct RowMaker {
   const JointWork& joint;
   const JointBody& a;
   const JointBody& b;
-  uint32_t motions;  ///< see make_joint_rows()
+  uint32_t motions;  ///< the free motions whose rows the caller needs, as in make_joint_rows()
   RowParts parts;
   JointRows& rows;
   Vec3<Real> gap = {};  ///< from A's anchor to B's, m: p_B - p_A
@@ -126,8 +126,8 @@ struct RowMaker {
     free_angular(i, axis, length_of(twist_of(relative.x, relative.w)));
     if (rate < k_twist_rate_min) rows.shown[i] = max(multiply(rate, share), k_zero);
   }
-  /// The angle between the x axes of A and B. Its row is a rotation about the axis perpendicular to both. If wanted,
-  /// free motion i + 1 is the rotation of B's x axis around A's x axis; it has no value.
+  /// The angle between the x axes of A and B. Its row is a rotation about the axis perpendicular to both. If `motions`
+  /// contains it, free motion i + 1 is the rotation of B's x axis around A's x axis. It has a row but no value.
   void free_lean(int i) {
     if (!wants(i) && !wants(i + 1)) return;
     const Vec3<Unit> x = {Unit(1.0), k_zero_unit, k_zero_unit}, leaning = rotate(relative, x);
@@ -139,12 +139,12 @@ struct RowMaker {
     free_angular(i, in_world, length_of(radians(arc_tangent(unit_from_real(sine, 0), leaning.x))));
     if (wants(i + 1)) free_angular(i + 1, clamped_unit(cross(real_from_unit(frame.column[0], 0), in_world), 0), k_zero);
   }
-  /// The three rotations about A's axes, for friction. They have no values.
+  /// Makes the rows of the three rotations about A's axes, for friction. These rotations have no values.
   void free_turns() {
     for (int i = 0; i < k_free_motions; ++i) free_angular(i, frame.column[i], k_zero);
   }
-  /// The three rotations about A's axes, for a spring. The values are the components of the rotation vector from A's
-  /// frame to B's, times u.
+  /// Makes the rows of the three rotations about A's axes, for a spring. The values are the components of the rotation
+  /// vector from A's joint frame to B's, times u.
   void free_turns_of_spring() {
     free_turns();
     const Real sign = relative.w < k_zero_unit ? Real(-1.0) : Real(1.0);  // q and -q are the same rotation

@@ -10,8 +10,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// How often impulses are scaled down if the velocity changes of the bodies exceed their range. The last time sets the
-/// impulses to zero.
+/// The maximum number of times that impulses are scaled down because the velocity changes of the bodies exceed their
+/// range. The last time sets the impulses to zero.
 constexpr uint32_t k_gathers = 4;
 constexpr Scaled k_gathered_share = 0.015625;  ///< factor of the impulses, each time except the last
 /// Largest number of solves to find the drive modes of limits, motors and friction.
@@ -56,8 +56,8 @@ struct Solver {
   JointFactor factor;
   bool touches;          ///< the island has contacts, which are solved in alternation with the joints
   bool loads = touches;  ///< contacts are solved again in this substep, and may load drives
-  Real elapsed;          ///< from the start of the tick to the start of the substep
-  Real enough;           ///< see solve_joints_again()
+  Real elapsed;          ///< time from the start of the tick to the start of the substep, s
+  Real enough;           ///< an assembly is not solved again if contacts changed no velocity by more than this, m/s
   /// x . (K + S) x of the last solution's impulses x, divided by the reference mass. It is a little more than x . K x,
   /// which is twice the energy of the impulses.
   Scaled own_energy = Scaled(0.0);
@@ -309,8 +309,8 @@ struct Solver {
     each_joint([&](JointWork& work) { count_in(work); });
   }
 
-  /// Activates limits and drives, for the velocities that include the gathered impulses. Returns whether a drive mode
-  /// changed.
+  /// Activates limits and drives, by the velocities that include the impulses of the last solve. Returns whether a
+  /// drive mode changed.
   bool take_up_drives() {
     bool open = false;
     each_joint([&](const JointWork& work) {
@@ -422,9 +422,10 @@ struct Solver {
     body.push = body.twist = body.given_push = body.given_twist = k_zero_vector;
   }
 
-  /// Applies the impulses that the rows that always act had in the last substep, as far as they add no energy. The
-  /// solve then only changes these impulses. So the rows of a mechanism at rest do not yield by their softness, however
-  /// large its forces are. Impulses beyond their range are not applied. Range: no impulses without a row are pending.
+  /// Applies the impulses of the last substep to the rows that always act, scaled down until they add no energy. The
+  /// solve then computes only the change of these impulses. Therefore the rows of a mechanism at rest do not yield by
+  /// their softness, however large the forces are. If an impulse is beyond its range, none are applied. Range: no
+  /// impulses without a row are pending.
   void warm_start() {
     each_joint([&](JointWork& work) {
       for (uint32_t k = 0; k < work.rows; ++k) work.impulse[k] = k < work.locked_rows ? work.kept[k] : k_zero;
@@ -460,14 +461,15 @@ struct Solver {
     return settled;
   }
 
-  /// Whether any drive may overdrive its motion, and this solve may correct that.
+  /// Whether any drive may drive a motion beyond its target speed, and a further solve may correct this.
   bool may_be_overdriven() {
     if (loads) return false;
     bool may = false;
     each_joint([&](const JointWork& work) { may = may || may_overdrive(stage.joints[work.joint], work); });
     return may;
   }
-  /// Solves the rows once more, if the assembly has not settled: removes the speed that contacts have added.
+  /// Solves the rows once more, to remove the speed that contacts have added. Does nothing if contacts have added none
+  /// that counts (has_settled()) and no drive needs a correction.
   void solve_again() {
     if (has_settled() && !may_be_overdriven()) return;
     each_mobile([&](JointBody& body) {
@@ -520,9 +522,9 @@ struct Solver {
   }
 
   /// Adds the velocities by which the joints follow their curved paths. Let x be the impulses that give these
-  /// velocities, and u the motion at the start of the substep. The best multiple of x would have removed an energy from
-  /// u; twice this energy is (x . J u)^2 / (x . K x). The projection has removed at least this energy. The velocities
-  /// are scaled so that they add no more than this energy. Range: load_motions() has been called.
+  /// velocities, and u the motion at the start of the substep. The multiple of x that removes the most energy from u
+  /// removes (x . J u)^2 / (2 x . K x). The projection has removed at least this energy. The velocities are scaled so
+  /// that they add no more than this energy. Range: load_motions() has been called.
   void follow_curves() {
     clamped += solve_for([&] { ask_for_curves(); });
     const Scaled shared = impulses_times_speeds(false);
@@ -539,8 +541,8 @@ struct Solver {
     });
   }
 
-  /// The product x . J v of the impulses and the rows' speeds at the bodies' current velocities. If `locked`, only over
-  /// the rows that lock motions.
+  /// The product x . J v of the impulses x and the speeds J v of the rows, at the bodies' current velocities. If
+  /// `locked` is true, the sum is only over the rows that lock motions.
   DETENT_SHARED Scaled impulses_times_speeds(bool locked) {
     EnergySum sum;
     each_joint([&](const JointWork& work) {
@@ -583,7 +585,7 @@ struct Solver {
     });
   }
 
-  /// Whether any error of position is large enough to be corrected.
+  /// Whether any position error of a row is large enough to be corrected.
   bool any_gaps() {
     bool opens = false;
     each_joint([&](const JointWork& work) {
@@ -738,8 +740,8 @@ uint32_t solve_each(const StepSettings& settings, const SolverBodies& bodies, co
 }
 
 /// The angular momentum of a body that a shift has rotated from `before` to `after`. A shift has no torque, so the
-/// angular momentum stays the same in world axes. If the body would have more energy with it in its new rotation, it is
-/// scaled down to the energy before.
+/// angular momentum stays the same in world axes. If the body would then have more energy in its new rotation, the
+/// angular momentum is scaled down until the energy is the same as before.
 Vec3<Real> angular_momentum_after_shift(const BodyProperties& properties, const Quat& before, const Quat& after,
                                         const Vec3<Real>& angular_momentum) {
   if (is_isotropic(properties)) return angular_momentum;
@@ -782,7 +784,7 @@ uint32_t shift_joints(const SolverBodies& bodies, const Island& island, JointSta
   const auto shift = [&](const JointBody& body) {
     BodyWork& now = bodies.work[body.slot];
     BodyMotion& motion = bodies.motions[body.slot];
-    const Vec3<Real> before = body.angular_momentum_before;  // with the body's own inertia
+    const Vec3<Real> before = body.angular_momentum_before;  // of lend_momenta(), with the inertia of the substep
     now.displacement += body.shift;
     if (!(body.shift_rotation == k_zero_vector)) {
       const Quat rotation_vector = rotation_from_vector(body.shift_rotation);

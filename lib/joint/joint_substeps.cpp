@@ -8,7 +8,7 @@
 /// angle w, rad, in a substep, its anchors leave these lines by arm x w^2 / 2. The solver corrects this error, except
 /// for a fraction w of it. Therefore the squared number of substeps is proportional to the curvature of the anchors'
 /// paths in a whole tick, divided by the smaller body's unit of length. A chain that hangs or swings slowly takes the
-/// least number of substeps. So does a wheel, which rotates about its anchor.
+/// least number of substeps. A wheel, which rotates about its anchor, takes the least number, too.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -19,17 +19,18 @@ constexpr Real k_rotation_max = 4.0;
 
 /// Least number of substeps with joints. With a single substep, taut joints would open by metres.
 constexpr uint32_t k_least = 2;
-/// Least number for islands with loops of joints, because a body that hangs from two points may be taut between them.
+/// Least number of substeps for islands with loops of joints, because a body that hangs from two points may be taut
+/// between them.
 constexpr uint32_t k_least_of_loops = 3;
-/// Least number for islands with contacts, because the impulses of contacts and joints converge over the substeps.
+/// Least number of substeps for islands with joints and contacts, because their impulses converge over the substeps.
 constexpr uint32_t k_least_with_contacts = 4;
-/// Squared substeps per squared radian of rotation in a tick: 0.2 rad per substep.
+/// Squared number of substeps per squared radian of rotation in a tick: a substep for each 0.2 rad.
 constexpr Scaled k_needed_by_bend = 25.0;
 /// The relative rotation of the two bodies' axes counts 2^k_axes_power times as much as the curvature of the anchors'
 /// paths.
 constexpr int k_axes_power = 3;
 constexpr Scaled k_needed_by_bend_max = 1024.0;
-/// Squared substeps per squared radian of a spring's phase in a tick.
+/// Squared number of substeps per squared radian of a spring's phase in a tick.
 constexpr Scaled k_needed_by_spring = 25.0;
 /// Limit of the squared number of substeps that a spring requests. push_softly() in joint_drives.cpp decides whether a
 /// spring is solved explicitly or implicitly.
@@ -67,8 +68,9 @@ Scaled bend_in_tick(const StepSettings& settings, const SolverBodies& bodies, co
              scaled_by_power(scaled_from(absolute_sum(cross(rotation_vector[0], rotation_vector[1]))), k_axes_power));
 }
 
-/// The length over which the relative velocity of a joint's anchors turns into rotation, m: that of a rod or rope, or
-/// the smaller body's unit of length if the joint holds the anchors together; 0 if the anchors may part.
+/// The length, m, by which the relative displacement of a joint's anchors is divided to get an angle of rotation. It is
+/// the length of a rod or rope, or the smaller body's unit of length if the joint holds the anchors together. It is 0
+/// if the anchors may part.
 Scaled swinging_length(const JointState& joint, const JointWork& work) {
   switch (static_cast<JointType>(joint.type)) {
     case JointType::distance:
@@ -83,9 +85,9 @@ Scaled swinging_length(const JointState& joint, const JointWork& work) {
   }
 }
 
-/// An upper bound of the squared angle by which a rod or rope between two anchors rotates in a tick. Also, for a joint
-/// that holds its anchors together, of the angle by which its bodies rotate because an impulse has parted the anchors'
-/// velocities.
+/// An upper bound of the squared angle by which a rod or rope between two anchors rotates in a tick. For a joint that
+/// holds its anchors together, it bounds the squared angle by which the bodies rotate because an impulse has made the
+/// velocities of the anchors differ.
 Scaled squared_swing(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                      const JointWork& work) {
   const Scaled length = swinging_length(stage.joints[work.joint], work);

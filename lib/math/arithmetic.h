@@ -9,9 +9,10 @@
 
 /// Products, quotients and vectors of the number types, with the same names in all configurations.
 ///
-/// Fixed: every function forms its sum of products exactly and rounds once, to nearest, ties up. Results outside the
-/// format wrap unless a function says that it saturates. Builds with DETENT_VERIFY trap if a Unit result would wrap.
-/// Float: the plain expression, evaluated from left to right, each operation rounded to nearest, ties to even.
+/// In the fixed-point configurations, every function forms its sum of products exactly and rounds it once, to nearest,
+/// ties up. A result outside the range of its type wraps, unless the function says that it saturates. Builds with
+/// DETENT_VERIFY trap if a Unit result would wrap. In the float configurations, every function is the plain expression,
+/// evaluated from left to right; each operation rounds to nearest, ties to even.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -26,12 +27,12 @@ inline constexpr int k_real_frac = Real::k_frac;
 inline constexpr Real k_real_max = Real::from_raw(INT64_MAX);
 inline constexpr Unit k_unit_max = Unit::from_raw(INT32_MAX);
 
-/// A Unit from a 64-bit result. Overflow: wraps; every caller ensures |value| < 2.
+/// Returns the Unit with the raw value `raw`. Overflow: wraps; every caller ensures that the Unit is within (-2, 2).
 constexpr Unit unit_from_raw(int64_t raw) {
   DETENT_VERIFY_RANGE(raw == static_cast<int32_t>(raw));
   return Unit::from_raw(static_cast<int32_t>(raw));
 }
-/// A sum of Unit products, Q4.60, as Unit.
+/// Converts a sum of products of Units, Q4.60, to a Unit.
 constexpr Unit unit_from_product(uint64_t sum) {
   return unit_from_raw(static_cast<int64_t>(sum + (uint64_t{1} << (k_unit_frac - 1))) >> k_unit_frac);
 }
@@ -40,8 +41,8 @@ constexpr uint64_t unit_product(Unit a, Unit b) { return static_cast<uint64_t>(i
 /// a b. Range: |a b| < 2.
 DETENT_SHARED constexpr Unit operator*(Unit a, Unit b) { return unit_from_product(unit_product(a, b)); }
 
-/// The functions of this file with a Real result, on raw integers instead of Reals: most calling conventions of 32-bit
-/// machines return an integer in registers, but a struct in memory.
+/// The functions of this file that have a Real as their result, but with raw integers instead of Reals. The reason:
+/// most calling conventions of 32-bit machines return an integer in registers, but a struct in memory.
 namespace raw {
 DETENT_SHARED constexpr int64_t multiply(int64_t a, int32_t unit) { return Int128::narrow_sum<k_unit_frac>(a, unit); }
 DETENT_SHARED constexpr int64_t multiply(int64_t a, int64_t b) {
@@ -56,15 +57,15 @@ DETENT_SHARED constexpr int64_t dot(const Vec3<Real>& a, const Vec3<Real>& b) {
 }
 DETENT_SHARED constexpr int64_t min(int64_t a, int64_t b) { return b < a ? b : a; }
 DETENT_SHARED constexpr int64_t max(int64_t a, int64_t b) { return a < b ? b : a; }
-/// |a|, without a branch, which would be mispredicted for random signs. Overflow: INT64_MIN wraps to itself.
+/// |a|. Computed without a branch, which would be mispredicted for random signs. Overflow: INT64_MIN wraps to itself.
 DETENT_SHARED constexpr int64_t abs(int64_t a) { return subtract_wrapped(a ^ (a >> 63), a >> 63); }
 int64_t divide(int64_t a, int64_t b);
-/// The difference of coordinates; see real_difference().
+/// The difference a - b of two raw coordinates, as a raw Real; see real_difference().
 DETENT_SHARED constexpr int64_t difference(Coord::Raw a, Coord::Raw b) {
   constexpr int k_shift = k_real_frac - Coord::k_frac;
   const int64_t difference = subtract_wrapped(a, b);
   constexpr int64_t k_limit = INT64_MAX >> k_shift;
-  // A wrapped difference has the wrong sign.
+  // If the difference of the raw coordinates has wrapped, it has the wrong sign.
   if (a < b) return difference >= 0 || difference < -k_limit ? -INT64_MAX : difference * (int64_t{1} << k_shift);
   return difference < 0 || difference > k_limit ? INT64_MAX : difference << k_shift;
 }
@@ -77,7 +78,7 @@ DETENT_PASSING constexpr Real operator*(Real a, Real b) { return Real::from_raw(
 inline constexpr Real k_real_max = Real(131072.0);  ///< the range is that of the fixed configurations
 #endif
 
-/// A *step* is the resolution of a Unit near 1: 2^k_unit_step. Errors of Unit results are stated in steps
+/// A *step* is the resolution of a Unit just below 1: 2^k_unit_step. Comments state errors of Unit results in steps
 /// (docs/numbers.md).
 #if DETENT_FIXED
 inline constexpr int k_unit_step = -30;
@@ -87,8 +88,8 @@ inline constexpr int k_unit_step = -24;
 inline constexpr int k_unit_step = -53;
 #endif
 
-/// Common operations on one number type. min and max return `a` if both arguments are equal, so that signed zeros agree
-/// on all targets.
+/// Functions for arguments of one number type. min() and max() return `a` if both arguments are equal, so that the sign
+/// of a zero is the same on all targets.
 template <class T>
 constexpr T min(T a, T b) {
   return b < a ? b : a;
@@ -114,8 +115,8 @@ constexpr T abs(T a) {
 #if DETENT_FIXED
 DETENT_PASSING constexpr Real abs(Real a) { return Real::from_raw(raw::abs(a.raw)); }
 #else
-// These functions only clear the sign bit. The comparison above would be a branch, which is mispredicted for random
-// signs.
+// These functions only clear the sign bit. The comparison in the template above would be a branch, which is
+// mispredicted for random signs.
 constexpr float abs(float a) { return __builtin_fabsf(a); }
 constexpr double abs(double a) { return __builtin_fabs(a); }
 #endif
@@ -211,8 +212,8 @@ DETENT_PASSING constexpr Unit unit_from_real(Real r, int e) {
 DETENT_SHARED constexpr Unit unit_difference(Coord a, Coord b, int e) {
   const int n = e + Coord::k_frac - k_unit_frac;
   if (n < 2) return unit_from_raw(shift_64(subtract_wrapped(a.raw, b.raw), -n));
-  // The coordinates are halved before the subtraction, because their 64-bit difference can overflow. The lowest bit
-  // cannot change the rounding.
+  // The coordinates are halved before the subtraction, because their 64-bit difference can overflow. The lowest bit of
+  // the difference, which is thereby lost, cannot change the rounding.
   const int64_t half = (int64_t{a.raw} >> 1) - (int64_t{b.raw} >> 1) - (int64_t{b.raw} & ~int64_t{a.raw} & 1);
   return unit_from_raw(shift_64(half, 1 - n));
 }
@@ -249,7 +250,7 @@ constexpr Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
 constexpr Real divide(Real a, Real b) { return a / b; }
 constexpr Real reciprocal(Real a) { return Real(1) / a; }
 
-/// x 2^n. Range: 2^n normal.
+/// x 2^n. Range: 2^n is a normal number.
 constexpr Real scale_by_power(Real x, int n) { return x * power_of_two<Real>(n); }
 /// The smallest e >= -46 with |x| < 2^e.
 DETENT_SHARED constexpr int exponent_above(Real x) {
@@ -287,7 +288,7 @@ constexpr Coord coord_advance(Coord c, Real d, bool& saturated) {
 inline constexpr Coord k_coord_max = 2147483648.0;
 constexpr Unit unit_difference(Coord a, Coord b, int e) { return scale_by_power(a - b, -e); }
 constexpr Real real_difference(Coord a, Coord b) { return a - b; }
-/// c + d, m, clamped to +-k_coord_max; `saturated` is set when clamped, else untouched.
+/// c + d, m. Overflow: clamps to +-k_coord_max and sets `saturated` (else untouched).
 constexpr Coord coord_advance(Coord c, Real d, bool& saturated) {
   const Coord sum = c + d;
   if (abs(sum) <= k_coord_max) return sum;
@@ -297,12 +298,12 @@ constexpr Coord coord_advance(Coord c, Real d, bool& saturated) {
 #endif
 #endif
 
-/// a - b, m: as real_difference() of each component.
+/// a - b, m: real_difference() of each component.
 DETENT_SHARED constexpr Vec3<Real> real_difference(const Position& a, const Position& b) {
   return {real_difference(a.x, b.x), real_difference(a.y, b.y), real_difference(a.z, b.z)};
 }
 
-/// By component, as real_from_unit() and unit_from_real() of a number.
+/// real_from_unit() and unit_from_real() of each component.
 DETENT_SHARED constexpr Vec3<Real> real_from_unit(const Vec3<Unit>& u, int e) {
   return {real_from_unit(u.x, e), real_from_unit(u.y, e), real_from_unit(u.z, e)};
 }
@@ -310,14 +311,14 @@ DETENT_SHARED constexpr Vec3<Unit> unit_from_real(const Vec3<Real>& r, int e) {
   return {unit_from_real(r.x, e), unit_from_real(r.y, e), unit_from_real(r.z, e)};
 }
 
-/// v 2^n, by component as scale_by_power() of a number.
+/// v 2^n: scale_by_power() of each component.
 template <class T>
 DETENT_SHARED constexpr Vec3<T> scale_by_power(const Vec3<T>& v, int n) {
   return {scale_by_power(v.x, n), scale_by_power(v.y, n), scale_by_power(v.z, n)};
 }
 /// |x| + |y| + |z|.
 DETENT_SHARED constexpr Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
-/// The greatest magnitude of a component.
+/// The greatest of the magnitudes of the components.
 DETENT_SHARED constexpr Real greatest(const Vec3<Real>& v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
 }  // namespace DETENT_NAMESPACE

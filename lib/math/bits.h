@@ -4,11 +4,12 @@
 
 #include "base/check.h"
 
-/// Integer helpers that every kernel shares. Signed shifts are arithmetic and signed conversions wrap (C++20).
+/// Integer functions that lib/math and the floors above it share. They rely on C++20: signed shifts are arithmetic, and
+/// conversions to signed integers wrap.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// |value| without overflow.
+/// |value| as an unsigned integer, so that it cannot overflow.
 constexpr uint32_t magnitude_32(int32_t value) {
   return value < 0 ? uint32_t{0} - static_cast<uint32_t>(value) : static_cast<uint32_t>(value);
 }
@@ -21,10 +22,10 @@ constexpr int64_t with_sign(uint64_t magnitude, bool negative) {
   return static_cast<int64_t>(negative ? uint64_t{0} - magnitude : magnitude);
 }
 
-/// The upper half of the product.
+/// The upper 32 bits of the 64-bit product.
 constexpr uint32_t high_product(uint32_t a, uint32_t b) { return static_cast<uint32_t>((uint64_t{a} * b) >> 32); }
 
-/// Bits needed to write the value: 0 for 0, else the n with 2^(n-1) <= value < 2^n.
+/// The number of bits of the value: 0 for 0, else the n with 2^(n-1) <= value < 2^n.
 constexpr int bit_length_32(uint32_t value) {
   if (value == 0) return 0;
   if constexpr (sizeof(unsigned) == 4)

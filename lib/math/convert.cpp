@@ -16,7 +16,7 @@ constexpr int k_coord_range = 31;
 #endif
 constexpr int k_scaled_range = 100;
 
-/// Whether the value is finite and |value| < 2^range. True for zero and for subnormals, which are read as zero.
+/// Whether the value is finite and |value| < 2^range. Subnormals are read as zero, which is within every range.
 constexpr bool is_within(const FloatParts& parts, int range) {
   return parts.finite && parts.exponent + bit_length_64(parts.mantissa) <= range;
 }
@@ -35,7 +35,7 @@ template <class Float>
   const FloatParts parts = float_parts(value);
   if (!is_within(parts, range)) return Status::out_of_range;
   const Float rounded = float_from_parts<Float>(parts.mantissa, parts.exponent, parts.negative);
-  // Rounding can reach the limit itself, which is out of range.
+  // Rounding can give the limit 2^range itself, which is out of range.
   if (!is_within(float_parts(rounded), range)) return Status::out_of_range;
   result = rounded;
   return Status::ok;

@@ -1,8 +1,8 @@
 #pragma once
 #include "math/bits.h"
 
-/// IEEE floats by their bits: results are the same on every target, whatever its rounding mode, flush-to-zero mode or
-/// x87 state.
+/// Functions that compute with the bits of IEEE floats. Their results are the same on every target, whatever its
+/// rounding mode, flush-to-zero mode or x87 state.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -21,7 +21,7 @@ struct FloatFormat<double> {
   static constexpr int k_bias = 1023;
 };
 
-/// 2^n. Range: n of a normal number (float: -126 to 127; double: -1022 to 1023).
+/// 2^n. Range: 2^n is a normal number (n of float: -126 to 127; of double: -1022 to 1023).
 template <class Float>
 constexpr Float power_of_two(int n) {
   using Format = FloatFormat<Float>;
@@ -33,7 +33,7 @@ constexpr Float power_of_two(int n) {
 /// A finite float as (-1)^negative mantissa 2^exponent, exact. Subnormals are read as 0, so that flush-to-zero in the
 /// caller has no effect.
 struct FloatParts {
-  uint64_t mantissa;  ///< 0, or its leading bit is bit k_fraction_bits of the format
+  uint64_t mantissa;  ///< 0, or an integer whose highest set bit is bit k_fraction_bits of the format
   int exponent;
   bool negative;
   bool finite;
@@ -50,9 +50,9 @@ constexpr FloatParts float_parts(Float value) {
           negative, biased != 2 * Format::k_bias + 1};
 }
 
-/// Returns (-1)^negative mantissa 2^exponent. A caller that has dropped lower bits passes a mantissa of at least 2^62
-/// with its lowest bit set (sticky bit). Rounding: to nearest, ties to even, once. Overflow: the largest finite number;
-/// below the normal range: +0.
+/// Returns (-1)^negative mantissa 2^exponent, rounded once, to nearest, ties to even. A caller that has dropped lower
+/// bits of a mantissa must pass a mantissa of at least 2^62, and set its lowest bit (sticky bit). Overflow: gives the
+/// largest finite number of this sign. Underflow: below the normal range the result is +0.
 template <class Float>
 constexpr Float float_from_parts(uint64_t mantissa, int exponent, bool negative) {
   using Format = FloatFormat<Float>;

@@ -15,7 +15,7 @@ uint32_t root_of_normal(uint64_t value, uint64_t& remainder) {
   const uint32_t inverse = reciprocal_root(head);
   const uint64_t estimate = (uint64_t{head} * inverse) >> 31;
   uint32_t root = estimate >> 32 != 0 ? UINT32_MAX : static_cast<uint32_t>(estimate);
-  // The estimate is off by a few units; the remainder, which fits in 37 bits, tells exactly by how many.
+  // The estimate is off by a few units. `rest` = value - root^2, which fits in 37 bits, tells exactly by how many.
   int64_t rest = static_cast<int64_t>(value - uint64_t{root} * root);
   while (rest < 0) rest += 2 * int64_t{--root} + 1;
   while (rest > 2 * int64_t{root}) rest -= 2 * int64_t{root++} + 1;
@@ -34,7 +34,7 @@ uint32_t reciprocal_root(uint32_t value) {
       static_cast<int32_t>((uint64_t{1} << 30) - ((uint64_t{high_product(value, first)} * first) >> 30));
   const int32_t step = error + static_cast<int32_t>((int64_t{error} * error * 3) >> 32);  // (e + 3 e^2/4), Q30
   const uint32_t second = static_cast<uint32_t>(int64_t{first} * 2 + ((int64_t{first} * step) >> 30));  // Q1.31
-  // A Newton step with the residual exact to 2^-62; the remaining error is its rounding.
+  // A Newton step with the residual exact to 2^-62. The error of the result is the rounding of this step.
   const uint64_t root = uint64_t{value} * second;                                       // Q63
   const uint64_t one = (root >> 32) * second + (((root & 0xffffffff) * second) >> 32);  // Q62
   const int64_t residual = static_cast<int64_t>((uint64_t{1} << 62) - one) >> 20;       // Q42
@@ -64,13 +64,15 @@ uint64_t square_root_nearest(Words128 value) {
   const int shift = 2 * half_shift;
   const uint64_t high = shift == 0 ? value.high : (value.high << shift) | (value.low >> (64 - shift));
   const uint64_t low = value.low << shift;
-  // Let v = high 2^64 + low: the value, shifted left so that high >= 2^62. Let s = floor(sqrt(high)) and r = high -
-  // s^2. The next 32 bits of the root of v are (r 2^32 + upper half of low) / (2 s), at most one too large.
+  // Let v = high 2^64 + low: the value, shifted left so that high >= 2^62. Let s = floor(sqrt(high)) and
+  // r = high - s^2. The integer part of the root of v is s 2^32 + floor((r 2^32 + upper half of low) / (2 s)), or one
+  // less.
   uint64_t rest = 0;
   const uint64_t head = root_of_normal(high, rest);
   const uint64_t numerator_high = rest >> 32;  // rest <= 2 head < 2^33: 0 or 1
   const uint64_t numerator = (rest << 32) | (low >> 32);
-  // The numerator has up to 65 bits, so numerator and divisor are halved. The remainder includes the lost bit.
+  // The numerator has up to 65 bits, so numerator and divisor are halved. The bit that the numerator loses counts in
+  // the remainder.
   uint64_t digit = ((numerator_high << 63) | (numerator >> 1)) / head;
   uint64_t digit_rest = numerator - digit * (2 * head);
   if (digit >> 32 != 0) {
@@ -94,7 +96,8 @@ uint64_t square_root_nearest(Words128 value) {
     const bool up = remainder_high > 0 || remainder_low > root;
     return up && root != UINT64_MAX ? root + 1 : root;
   }
-  // (m + 1/2)^2 is not an integer, so there are no ties: the bit below decides.
+  // The root of the unshifted value is rounded. There are no ties, because (m + 1/2)^2 is not an integer for any
+  // integer m. So the highest bit that the shift drops decides.
   return (root >> half_shift) + ((root >> (half_shift - 1)) & 1);
 }
 
@@ -167,7 +170,7 @@ bool normalise(const Vec3<Real>& v, Vec3<Unit>& n, Real& length_of_v) {
 #else
 namespace {
 
-/// As float_parts(), but with subnormals as they are.
+/// As float_parts(), but reads subnormals exactly, not as 0.
 template <class Float>
 FloatParts float_parts_with_subnormals(Float value) {
   using Format = FloatFormat<Float>;
@@ -186,8 +189,8 @@ FloatParts float_parts_with_subnormals(Float value) {
 float square_root_portable(float a) {
   const FloatParts parts = float_parts_with_subnormals(a);
   if (parts.mantissa == 0) return a;
-  // mantissa 2^shift in [2^62, 2^64) with an even exponent: the root has 32 bits, and a
-  // nonzero remainder sets a lower sticky bit.
+  // mantissa 2^shift is in [2^62, 2^64), and the exponent that remains is even. So the root has 32 bits. A nonzero
+  // remainder sets a sticky bit below them.
   const int shift = ((parts.exponent & 1) != 0) ? 39 : 40;
   uint64_t remainder = 0;
   const uint64_t root = root_of_normal(parts.mantissa << shift, remainder);
@@ -199,7 +202,7 @@ double square_root_portable(double a) {
   if (parts.mantissa == 0) return a;
   const int odd = parts.exponent & 1;
   const uint64_t value = parts.mantissa << odd;  // [2^52, 2^54) with an even exponent
-  // Digit by digit: `root` receives the 55 bits of the root of value 2^56; `rest` stays below 2 root + 1.
+  // Computes the root of value 2^56 bit by bit: `root` receives its 55 bits, and `rest` stays below 2 root + 1.
   uint64_t root = 0;
   uint64_t rest = 0;
   for (int pair = 54; pair >= 0; --pair) {

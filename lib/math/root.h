@@ -13,10 +13,10 @@ uint32_t square_root_nearest(uint64_t value);
 /// Source: Zimmermann, "Karatsuba Square Root", INRIA RR-3805, 1999 (one step).
 uint64_t square_root_nearest(Words128 value);
 
-/// An approximation of 2^47 / sqrt(value), that is 1/sqrt(value 2^-32) in Q1.31. Range: value in [2^30, 2^32).
+/// An approximation of 2^47 / sqrt(value), that is of 1 / sqrt(value 2^-32) in Q1.31. Range: value in [2^30, 2^32).
 /// Overflow: saturates at 2^32 - 1. Error: k_reciprocal_root_error.
 uint32_t reciprocal_root(uint32_t value);
-inline constexpr double k_reciprocal_root_error = 1.0;  ///< units of 2^-31; the result is in (1, 2]
+inline constexpr double k_reciprocal_root_error = 1.0;  ///< in units of 2^-31; a result is in (1, 2]
 
 /// The unit vector along v, Q2.30. Range: the largest component of v within [2^29, 2^30] in magnitude.
 /// Rounding: each component within k_normalise_error; the length within k_normalise_length_error.
@@ -27,7 +27,8 @@ constexpr uint32_t reciprocal_root_guess(uint32_t value) {
   const auto high = [value](uint32_t b) { return static_cast<uint32_t>((uint64_t{value} * b) >> 32); };
   return 0x639898a5 - high(0xbd264567 - high(0xc75be3d4 - high(0x4e07e417)));
 }
-/// A cheap upper bound of the square root, at most 1.6 % and 2 above it. Overflow: none for value < 2^62.
+/// A cheap upper bound of the square root. It exceeds the root by at most 1.6 % of the root plus 2. Overflow: none for
+/// value < 2^62.
 DETENT_SHARED constexpr uint32_t square_root_bound(uint64_t value) {
   if (value == 0) return 0;
   const int half_shift = (64 - bit_length_64(value)) / 2;
@@ -49,14 +50,14 @@ Unit length(const Vec3<Unit>& v);
 /// |v|, m. Rounding: the root of the exact sum of squares, to nearest. Overflow: saturates to +131072.
 DETENT_PASSING inline Real length(const Vec3<Real>& v) { return Real::from_raw(raw::length(v)); }
 
-/// Sets n = v / |v| and `length` = |v|. Returns false, with the outputs untouched, if v is zero. n is as precise for
-/// the smallest v as for others. Rounding: each component of n within k_normalise_error of the true direction,
-/// | |n| - 1 | <= k_normalise_length_error, `length` to nearest. Overflow: as length().
+/// Sets n = v / |v| and `length` = |v|. Returns false, with the outputs untouched, if v is zero. n is as precise for a
+/// short v as for a long one. Rounding: each component of n is within k_normalise_error of the true direction,
+/// | |n| - 1 | <= k_normalise_length_error, and `length` is rounded to nearest. Overflow: as length().
 bool normalise(const Vec3<Unit>& v, Vec3<Unit>& n, Unit& length);
 bool normalise(const Vec3<Real>& v, Vec3<Unit>& n, Real& length);
 #else
-/// Correctly rounded, to nearest, ties to even, by integer arithmetic alone, also for subnormals. Range: a >= 0 and not
-/// NaN.
+/// The square root, correctly rounded (to nearest, ties to even), also for subnormals. Uses only integer arithmetic.
+/// Range: a >= 0 and not NaN.
 float square_root_portable(float a);
 double square_root_portable(double a);
 
@@ -69,7 +70,7 @@ double square_root_portable(double a);
 #define DETENT_HARDWARE_SQUARE_ROOT 0
 #endif
 
-/// Correctly rounded. Range: a >= 0 and not NaN.
+/// The square root, correctly rounded. Range: a >= 0 and not NaN.
 inline Real square_root(Real a) {
 #if !DETENT_HARDWARE_SQUARE_ROOT
   return square_root_portable(a);
@@ -79,15 +80,16 @@ inline Real square_root(Real a) {
   return __builtin_sqrt(a);
 #endif
 }
-/// |v|. Range: components 0 or at least 2^-46 in magnitude, and below 2^40: the squares neither underflow nor overflow.
+/// |v|. Range: each component is 0, or its magnitude is in [2^-46, 2^40), so that its square neither underflows nor
+/// overflows.
 inline Real length(const Vec3<Real>& v) { return square_root(dot(v, v)); }
-/// Sets n = v / |v| and `length` = |v|. Returns false, with the outputs untouched, if v is zero. The errors of n are
-/// those of the fixed configurations.
+/// Sets n = v / |v| and `length` = |v|. Returns false, with the outputs untouched, if v is zero. The errors of n are at
+/// most k_normalise_error and k_normalise_length_error.
 bool normalise(const Vec3<Real>& v, Vec3<Unit>& n, Real& length);
 #endif
 
-inline constexpr double k_normalise_error = 2.5;         ///< steps (k_unit_step), of a component
-inline constexpr double k_normalise_length_error = 3.0;  ///< steps, of |n|
+inline constexpr double k_normalise_error = 2.5;         ///< error of a component of n, in steps (k_unit_step)
+inline constexpr double k_normalise_length_error = 3.0;  ///< error of |n|, in steps
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -106,7 +106,7 @@ Quat normalise(const Quat& q) {
   return scaled(q, Unit(1) - d * (Unit(0.5) - Unit(0.375) * d));
 }
 #else
-Quat normalise(const Quat& q) { return normalise_any(q); }  // the series would need five terms
+Quat normalise(const Quat& q) { return normalise_any(q); }  // a series as in f32 would need five terms
 #endif
 
 bool normalise_input(const Quat& q, Quat& out) {
@@ -145,8 +145,8 @@ Quat rotation_about(const Vec3<Unit>& axis, Angle angle) {
 #if !defined(DETENT_F64)
 namespace {
 
-/// Small rotations by series: cheaper than a root and a sine, and precise relative to the angle in f32.
-/// Range: components of theta below 2^-4. The omitted terms are below 2^-34.
+/// The rotation by |theta| rad about theta, by a series. This costs less than a root and a sine, and in f32 the error
+/// is small relative to the angle. Range: the components of theta are below 2^-4. The omitted terms are below 2^-34.
 Quat small_rotation(const Vec3<Real>& theta) {
   const Vec3<Unit> t = unit_from_real(theta, -3);
   const Unit s = dot(t, t);  // 64 |theta|^2 < 3/4
@@ -157,8 +157,8 @@ Quat small_rotation(const Vec3<Real>& theta) {
   return {unit_from_real(v.x, 0), unit_from_real(v.y, 0), unit_from_real(v.z, 0), cosine};
 }
 
-/// The rotation vector by a series. Range: components of q's vector part below 2^-5, w > 0. The omitted terms are below
-/// 2^-31 of the result.
+/// The rotation vector of q, rad, by a series. Range: the components of q's vector part are below 2^-5, w > 0. The
+/// omitted terms are below 2^-31 of the result.
 Vec3<Real> small_rotation_vector(const Quat& q) {
   const Vec3<Unit> v = {q.x, q.y, q.z}, v8 = scale_by_power(v, 3);
   const Unit s = dot(v8, v8);  // 64 |v|^2 < 3/16

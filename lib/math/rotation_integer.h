@@ -1,7 +1,8 @@
 #pragma once
 #include "math/vector_integer.h"
 
-/// Integer rotations, Q2.30. The fixed configurations use them, and lib/distance and lib/toi in every configuration.
+/// Integer rotations, Q2.30. The fixed-point configurations use them for their Quat; lib/distance and lib/toi use them
+/// in every configuration.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -16,14 +17,14 @@ struct Matrix32 {
 
 constexpr int32_t round_30(int64_t sum) { return static_cast<int32_t>((sum + (int64_t{1} << 29)) >> 30); }
 
-/// The rotation b followed by a. Rounding: each component once.
+/// The product a b: the rotation b followed by the rotation a. Rounding: each component once.
 DETENT_SHARED constexpr Quat32 multiply(const Quat32& a, const Quat32& b) {
   const int64_t aw = a.w, ax = a.x, ay = a.y, az = a.z;
   return {round_30(aw * b.x + ax * b.w + ay * b.z - az * b.y), round_30(aw * b.y - ax * b.z + ay * b.w + az * b.x),
           round_30(aw * b.z + ax * b.y - ay * b.x + az * b.w), round_30(aw * b.w - ax * b.x - ay * b.y - az * b.z)};
 }
 
-/// Brings the length back to 1. Range: | |q|^2 - 1 | < 2^-8.
+/// Scales q to length 1. Range: | |q|^2 - 1 | < 2^-8.
 DETENT_SHARED constexpr Quat32 normalise(const Quat32& q) {
   // 1 / sqrt(1 + d) = 1 - (d/2 - 3 d^2/8) + O(d^3)
   const uint64_t square = static_cast<uint64_t>(int64_t{q.x} * q.x) + static_cast<uint64_t>(int64_t{q.y} * q.y) +
@@ -35,11 +36,11 @@ DETENT_SHARED constexpr Quat32 normalise(const Quat32& q) {
   return {scaled(q.x), scaled(q.y), scaled(q.z), scaled(q.w)};
 }
 
-/// Normalises a rotation given by the user. Returns false and changes nothing unless | |q| - 1 | <= 2^-10.
+/// Normalises a rotation given by the user. If | |q| - 1 | > 2^-10, returns false and leaves q unchanged.
 DETENT_SHARED constexpr bool normalise_input(Quat32& q) {
   constexpr uint64_t k_low = uint64_t{(1 << 20) - (1 << 10)} * ((1 << 20) - (1 << 10));
   constexpr uint64_t k_high = uint64_t{(1 << 20) + (1 << 10)} * ((1 << 20) + (1 << 10));
-  // Uses a quarter of each square, so that the sum of four is always below 2^63.
+  // The squares are divided by 4, so that the sum of the four is always below 2^63.
   const auto quarter = [](int64_t a) { return static_cast<uint64_t>(a * a) >> 2; };
   const uint64_t sum = quarter(q.x) + quarter(q.y) + quarter(q.z) + quarter(q.w);
   if (sum < k_low << 18 || sum > k_high << 18) return false;
@@ -49,7 +50,7 @@ DETENT_SHARED constexpr bool normalise_input(Quat32& q) {
 
 DETENT_SHARED constexpr Matrix32 matrix_from(const Quat32& q) {
   const int64_t x = q.x, y = q.y, z = q.z, w = q.w;
-  constexpr int64_t k_half = int64_t{1} << 59;  // half of 1, doubled with the products
+  constexpr int64_t k_half = int64_t{1} << 59;  // 1/2 in Q60; entry() doubles it together with the products
   const auto entry = [](int64_t half) { return static_cast<int32_t>((half + (int64_t{1} << 28)) >> 29); };
   const int64_t xx = x * x, yy = y * y, zz = z * z, xy = x * y, xz = x * z, yz = y * z, wx = w * x, wy = w * y,
                 wz = w * z;
@@ -58,13 +59,13 @@ DETENT_SHARED constexpr Matrix32 matrix_from(const Quat32& q) {
            {entry(xz + wy), entry(yz - wx), entry(k_half - xx - yy)}}};
 }
 
-/// m v, exact, with 30 more fraction bits than v. Range: |v| < 2^32.
+/// The product m v, exact; it has 30 fraction bits more than v. Range: |v| < 2^32.
 DETENT_SHARED constexpr Vec64 multiply(const Matrix32& m, const Vec32& v) {
   const Vec32* c = m.column;
   return {dot(v, Vec32{c[0].x, c[1].x, c[2].x}), dot(v, Vec32{c[0].y, c[1].y, c[2].y}),
           dot(v, Vec32{c[0].z, c[1].z, c[2].z})};
 }
-/// v rotated by the inverse of m, rounded.
+/// v rotated by the inverse of m. Rounding: to nearest, ties up.
 DETENT_SHARED constexpr Vec32 rotate_inverse(const Matrix32& m, const Vec32& v) {
   return {round_30(dot(v, m.column[0])), round_30(dot(v, m.column[1])), round_30(dot(v, m.column[2]))};
 }

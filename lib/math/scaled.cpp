@@ -8,7 +8,7 @@ namespace words {
 uint64_t scaled_from_parts(bool negative, uint64_t mantissa, int exponent) {
   if (mantissa == 0) return 0;
   const int drop = bit_length_64(mantissa) - 31;
-  // Ties away from zero; a carry to 2^31 is 2^30 with the next exponent.
+  // Ties away from zero. If rounding gives 2^31, the mantissa becomes 2^30, and the exponent increases by 1.
   uint64_t rounded = drop <= 0 ? mantissa << -drop : ((mantissa >> (drop - 1)) + 1) >> 1;
   exponent += drop;
   if (rounded >> 31 != 0) {
@@ -51,7 +51,8 @@ uint64_t add(uint64_t a_word, uint64_t b_word) {
   const Scaled small = a.exponent < b.exponent ? a : b;
   const int shift = large.exponent - small.exponent;
   if (shift > 33) return word_of(large);
-  // 31 more fraction bits. The last one is sticky: it also stands for the lower bits that the smaller number loses.
+  // The sum is computed with 31 more fraction bits. The last of them is sticky: it also stands for the lower bits that
+  // the smaller number loses in the shift.
   const int64_t head = int64_t{small.mantissa} * (int64_t{1} << 31);
   const int64_t shifted = head >> shift;
   const int64_t sticky = shifted * (int64_t{1} << shift) != head ? 1 : 0;
@@ -98,11 +99,12 @@ int64_t multiply_raw(int64_t raw, uint64_t b_word) {
   const Scaled b = to_scaled(b_word);
   DETENT_VERIFY_RANGE(b.mantissa == 0 || b.exponent < 0);
   const int n = -b.exponent;
-  // a b = high 2^32 + low, as in PortableInt128::product_narrow; only the needed word is computed.
+  // The product is high 2^32 + low, as in PortableInt128::product_narrow(). Only the part that the result needs is
+  // computed.
   const int64_t low_product = static_cast<int64_t>(static_cast<uint32_t>(raw)) * b.mantissa;
   const int64_t high = (raw >> 32) * b.mantissa + (low_product >> 32);
   if (n > 32) return shift_64(high, 32 - n);
-  if (n <= 0) return 0;  // only 0 has such an exponent here
+  if (n <= 0) return 0;  // in the range of this function, only b = 0 has an exponent that is not negative
   const int64_t low = low_product & 0xffffffff;
   return static_cast<int64_t>(static_cast<uint64_t>(high) << (32 - n)) + round_shift_64(low, n);
 }
@@ -110,7 +112,8 @@ int64_t multiply_raw(int64_t raw, uint64_t b_word) {
 
 int64_t multiply_raw(int64_t raw, uint64_t b_word, bool& saturated) {
   const Scaled b = to_scaled(b_word);
-  // An upper bound of the product's bit length. A product far from the limits needs no closer test.
+  // An upper bound of the bit length of the integer part of the product. If it shows that the product fits, the exact
+  // test below is not needed.
   const int most = bit_length_64(magnitude_64(raw)) + 31 + b.exponent;
   if (most <= 62 && b.exponent < 0 && b.exponent >= -120)
     return Int128::product_narrow(raw, b.mantissa).round_shift(-b.exponent);

@@ -5,17 +5,18 @@
 
 /// Numbers of a wide range: masses, densities, forces, impulses.
 ///
-/// Fixed. Rounding: the mantissa to nearest, ties away from zero (so that -a mirrors a); relative error of every
-/// function <= 2^-31. Overflow: clamps to +-(2 - 2^-30) 2^286; below 2^-226: 0.
-/// Float: the plain expression.
+/// In fixed point, every function rounds the mantissa to nearest, ties away from zero, so that it treats positive and
+/// negative numbers alike; its relative error is at most 2^-31, unless stated otherwise. Overflow: clamps to
+/// +-(2 - 2^-30) 2^286. Underflow: below 2^-226 the result is 0. In float, every function is the plain expression.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 #if DETENT_FIXED
 inline constexpr int k_scaled_exponent_max = 256;
 
-/// The functions below, on integers. A Scaled is passed as one 64-bit word, because most calling conventions of 32-bit
-/// machines pass a struct of two words through memory. A Real is passed as its raw integer.
+/// The functions below this namespace, for integers instead of structs. A Scaled is passed as one 64-bit word, because
+/// most calling conventions of 32-bit machines pass a struct of two words through memory. A Real is passed as its raw
+/// integer.
 namespace words {
 uint64_t scaled_from_parts(bool negative, uint64_t mantissa, int exponent);
 uint64_t scaled_from(int64_t raw, int frac);
@@ -29,7 +30,8 @@ uint64_t scaled_reciprocal(int64_t raw);
 int64_t multiply_raw(int64_t raw, uint64_t b);
 int64_t multiply_raw(int64_t raw, uint64_t b, bool& saturated);
 
-// On its machines, each variant compiles to no instructions.
+// Two variants, for machines with 64-bit and with 32-bit addresses. On these machines the conversions take no
+// instructions.
 #if UINTPTR_MAX > 0xffffffff
 constexpr uint64_t word_of(Scaled a) { return __builtin_bit_cast(uint64_t, a); }
 constexpr Scaled to_scaled(uint64_t word) { return __builtin_bit_cast(Scaled, word); }
@@ -43,8 +45,8 @@ DETENT_PASSING constexpr Scaled to_scaled(uint64_t word) {
 #endif
 }  // namespace words
 
-/// Returns mantissa 2^exponent in canonical form. A caller that has dropped lower bits sets the mantissa's lowest bit
-/// (sticky bit).
+/// Returns mantissa 2^exponent, or its negative if `negative`, in canonical form. A caller that has dropped lower bits
+/// of the mantissa must set its lowest bit (sticky bit).
 DETENT_PASSING inline Scaled scaled_from_parts(bool negative, uint64_t mantissa, int exponent) {
   return words::to_scaled(words::scaled_from_parts(negative, mantissa, exponent));
 }
@@ -76,7 +78,7 @@ DETENT_PASSING inline bool less(Scaled a, Scaled b) { return words::less(words::
 constexpr bool is_positive(Scaled a) { return a.mantissa > 0; }
 constexpr Scaled negate(Scaled a) { return Scaled::from_parts(-a.mantissa, a.exponent); }
 
-/// a b. Range: |b| < 2^30. Rounding: to nearest, ties up. Overflow: wraps; none for |b| <= 1.
+/// a b as a Real. Range: |b| < 2^30. Rounding: to nearest, ties up. Overflow: wraps; none for |b| <= 1.
 #if DETENT_NATIVE_WIDE
 inline Real multiply(Real a, Scaled b) {
   DETENT_VERIFY_RANGE(b.mantissa == 0 || b.exponent < 0);
@@ -95,13 +97,14 @@ DETENT_PASSING inline Real multiply(Real a, Scaled b) {
 /// 1 / a. Range: a > 0. Rounding: relative error <= 2^-29. Overflow: none.
 DETENT_PASSING inline Scaled scaled_reciprocal(Real a) { return words::to_scaled(words::scaled_reciprocal(a.raw)); }
 #if DETENT_NATIVE_WIDE
-/// Whether the product of a with a mantissa, times 2^-n, fits a Real: mantissas are below 2^31, so if a is below 2^(n +
-/// 31), the rounded product is at most 2^62.
+/// Whether the product of `a` and any mantissa, times 2^-n, certainly fits a Real. A mantissa is below 2^31. So if |a|,
+/// as a raw integer, is at most 2^(n + 31), the rounded product is at most 2^62.
 constexpr bool fits_scaled(Real a, int n) {
   return n > 0 && n <= 64 && static_cast<uint64_t>((a.raw >> (n < 32 ? n + 31 : 63)) + 1) <= 1;
 }
 #endif
-/// a b. Rounding: to nearest, ties up. Overflow: clamps to Real's range and sets `saturated` (else untouched).
+/// a b as a Real. Rounding: to nearest, ties up. Overflow: clamps to Real's range and sets `saturated` (else
+/// untouched).
 DETENT_PASSING inline Real multiply(Real a, Scaled b, bool& saturated) {
 #if DETENT_NATIVE_WIDE
   const int n = -b.exponent;
@@ -109,7 +112,7 @@ DETENT_PASSING inline Real multiply(Real a, Scaled b, bool& saturated) {
 #endif
   return Real::from_raw(words::multiply_raw(a.raw, words::word_of(b), saturated));
 }
-/// As multiply(Real(1.0), a, saturated).
+/// a as a Real. Rounding and overflow: as multiply(Real(1.0), a, saturated).
 DETENT_PASSING inline Real to_real(Scaled a, bool& saturated) { return multiply(Real(1.0), a, saturated); }
 /// a as a Unit. Range: |a| < 2. Rounding: to nearest, ties up.
 Unit to_unit(Scaled a);
@@ -122,7 +125,7 @@ constexpr Scaled scaled_by_power(Scaled a, int n) { return scale_by_power(a, n);
 constexpr bool less(Scaled a, Scaled b) { return a < b; }
 constexpr bool is_positive(Scaled a) { return a > 0; }
 constexpr Scaled negate(Scaled a) { return Scaled(0) - a; }
-/// Clamps to +-k_real_max and sets `saturated` (else untouched).
+/// a as a Real. Overflow: clamps to +-k_real_max and sets `saturated` (else untouched).
 constexpr Real to_real(Scaled a, bool& saturated) {
   if (abs(a) <= k_real_max) return a;
   saturated = true;
@@ -132,11 +135,11 @@ constexpr Real multiply(Real a, Scaled b, bool& saturated) { return to_real(a * 
 constexpr Unit to_unit(Scaled a) { return a; }
 #endif
 
-/// Each component of v times a, as multiply(v.x, a).
+/// v a, by multiply(v.x, a) for each component.
 DETENT_SHARED inline Vec3<Real> multiply(const Vec3<Real>& v, Scaled a) {
   return {multiply(v.x, a), multiply(v.y, a), multiply(v.z, a)};
 }
-/// Each component of v times a, as multiply(v.x, a, saturated).
+/// v a, by multiply(v.x, a, saturated) for each component.
 DETENT_SHARED inline Vec3<Real> multiply(const Vec3<Real>& v, Scaled a, bool& saturated) {
 #if DETENT_FIXED && DETENT_NATIVE_WIDE
   const int n = -a.exponent;

@@ -47,13 +47,13 @@ Real radians(Angle angle) { return Real::from_raw(radians_raw(static_cast<int32_
 Angle arc_tangent(Unit y, Unit x) { return {arc_tangent_raw(y.raw, x.raw)}; }
 #else
 Real radians(Angle angle) {
-  constexpr int k_frac = 60;  // so that the smallest angle keeps 24 bits
+  constexpr int k_frac = 60;  // fraction bits: so many that even the smallest angle has at least 24 bits
   return float_from_integer<float>(radians_raw(static_cast<int32_t>(angle.raw), k_frac), -k_frac);
 }
 
 Angle arc_tangent(Unit y, Unit x) {
-  // x and y are scaled by one power of two so that the larger has 31 bits. The bits that the smaller loses change the
-  // angle by less than 2^-31 rad.
+  // x and y are multiplied by the same power of two, so that the larger one has 31 bits as an integer. The bits that
+  // the smaller one loses change the angle by less than 2^-31 rad.
   const Unit large = max(abs(y), abs(x));
   const FloatParts parts = float_parts(large);
   const int frac = 7 - parts.exponent;

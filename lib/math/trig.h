@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 #if !defined(DETENT_F64)
-/// An angle as a fraction of a turn: raw 2^-32 turns. Sums wrap, as angles do.
+/// An angle in turns: raw x 2^-32 turns. Sums wrap after a whole turn.
 struct Angle {
   uint32_t raw;
   friend constexpr bool operator==(Angle a, Angle b) { return a.raw == b.raw; }
@@ -25,36 +25,37 @@ struct Angle {
 };
 #endif
 
-/// Sine and cosine. Exact at quarter turns. Error: k_sine_error.
+/// The sine and the cosine of an angle. Both are exact at quarter turns. Error: k_sine_error.
 void sine_cosine(Angle angle, Unit& sine, Unit& cosine);
-/// Sine and cosine of half the angle, which is first reduced to [-1/2, 1/2) turn (f64: not reduced). Error:
+/// The sine and the cosine of half the angle. The angle is first reduced to [-1/2, 1/2) turn (f64: not reduced). Error:
 /// k_sine_error.
 void sine_cosine_of_half(Angle angle, Unit& sine, Unit& cosine);
-/// Sine and cosine of half an angle in rad. Range: |angle| <= 2^17. Error: k_sine_error plus 2^-34 turns.
+/// The sine and the cosine of half an angle, which is given in rad. Range: |angle| <= 2^17. Error: k_sine_error, plus
+/// the effect of an error of 2^-34 turns in the angle.
 void sine_cosine_of_half_radians(Real angle, Unit& sine, Unit& cosine);
 
-/// The angle modulo one turn. Range: |angle| <= 2^17 rad. Rounding: to nearest; error at most (1/2 + 2^-16) 2^-32
-/// turns.
+/// Converts an angle in rad to an Angle, modulo one turn (f64: not reduced). Range: |angle| <= 2^17 rad. Rounding: to
+/// nearest; error at most (1/2 + 2^-16) 2^-32 turns.
 Angle angle_from_radians(Real angle);
-/// rad, in [-pi, pi). Rounding: to nearest.
+/// Converts an angle to rad, in [-pi, pi). Rounding: to nearest.
 Real radians(Angle angle);
 /// The angle of the point (x, y): atan2(y, x), in (-1/2, 1/2] turn. (0, 0) gives 0. Error: k_arc_tangent_error. If the
 /// result is exactly half a turn, radians() of it gives -pi instead of pi.
 Angle arc_tangent(Unit y, Unit x);
 
 #if DETENT_FIXED
-inline constexpr double k_sine_error = 0.67;  ///< steps (k_unit_step); the exhaustive test finds 0.6615
+inline constexpr double k_sine_error = 0.67;  ///< in steps (k_unit_step); the exhaustive test finds 0.6615
 #elif defined(DETENT_F32)
 inline constexpr double k_sine_error = 0.52;
 #else
 inline constexpr double k_sine_error = 2.0;
 #endif
 #if DETENT_FIXED
-inline constexpr double k_arc_tangent_error = 0.75;  ///< units of 2^-32 turns
+inline constexpr double k_arc_tangent_error = 0.75;  ///< in units of 2^-32 turns
 #elif defined(DETENT_F32)
 inline constexpr double k_arc_tangent_error = 1.0;
 #else
-inline constexpr double k_arc_tangent_error = 6.0;  ///< units of 2^-53 rad
+inline constexpr double k_arc_tangent_error = 6.0;  ///< in units of 2^-53 rad
 #endif
 
 }  // namespace DETENT_NAMESPACE

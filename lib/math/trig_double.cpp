@@ -7,7 +7,8 @@ inline namespace DETENT_NAMESPACE {
 
 namespace {
 
-// pi/2 in three parts. The first two have 33 bits, so n times each of them is exact for |n| < 2^20.
+// pi/2 as the sum of three parts. The first two have at most 33 bits, so the product of n and each of them is exact for
+// |n| < 2^20.
 constexpr double k_half_pi_high = 0x1.921fb544p+0;
 constexpr double k_half_pi_middle = 0x1.0b4611a6p-34;
 constexpr double k_half_pi_low = 0x1.3198a2e037073p-69;
@@ -17,7 +18,8 @@ constexpr double k_pi = 0x1.921fb54442d18p+1;
 /// The integer nearest to value (ties away from zero). Range: |value| < 2^31.
 int32_t nearest_integer(double value) { return static_cast<int32_t>(value + (value < 0 ? -0.5 : 0.5)); }
 
-/// atan(z). Range: |z| <= tan(pi/8). Minimax of degree 11 in z^2: error 2^-64.
+/// atan(z), as z + z^3 P(z^2) with a polynomial P of degree 11. Range: |z| <= tan(pi/8). Error: below 2^-57, and the
+/// rounding of the operations.
 double arc_tangent_near_zero(double z) {
   constexpr double k_coefficients[] = {
       -0.3333333333333332758084002, 0.1999999999999769059501022,   -0.1428571428539070722007244,
@@ -36,7 +38,8 @@ void sine_cosine(Angle angle, Unit& sine, Unit& cosine) {
   const int32_t n = nearest_integer(angle.radians * k_two_over_pi);
   const double x = ((angle.radians - n * k_half_pi_high) - n * k_half_pi_middle) - n * k_half_pi_low;
   const double s = x * x;
-  // Minimax: errors 2^-58 and 2^-64.
+  // Minimax polynomials for the sine and for the cosine. Before the rounding of their coefficients, their errors are
+  // 2^-58 and 2^-64.
   const double a =
       x + x * (s * (-0.1666666666666663202567856 +
                     s * (0.008333333333322413545897017 +
@@ -49,7 +52,7 @@ void sine_cosine(Angle angle, Unit& sine, Unit& cosine) {
                             s * (0.00002480158728948233934724466 +
                                  s * (-0.000000275573143523721727687973 +
                                       s * (2.08757232781319945135107e-9 - s * 1.135964804225986135483053e-11)))));
-  // 1 - s/2 + rest, corrected by the rounding error of 1 - s/2.
+  // The cosine, 1 - s/2 + rest, corrected by the rounding error of 1 - s/2.
   const double half = 0.5 * s;
   const double head = 1.0 - half;
   const double b = head + (((1.0 - head) - half) + rest);

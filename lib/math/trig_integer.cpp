@@ -4,23 +4,25 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 SineCosineRaw sine_cosine_raw(int64_t phase) {
-  // The nearest quarter turn, and t in [-1/2, 1/2) quarter turns as Q32.
+  // The number of the nearest quarter turn, and the rest t of the angle, in [-1/2, 1/2) quarter turns, Q32.
   const uint32_t quarter = static_cast<uint32_t>((phase + 0x80000000) >> 32) & 3;
   const int64_t t = static_cast<int32_t>(phase);
   const uint64_t square = static_cast<uint64_t>(t * t);  // Q64
   const uint32_t s = static_cast<uint32_t>(square >> 32);
 
-  // sin = t pi/2 - t s R(s), R minimax of degree 3, Q32: error 2^-38.6. The leading term is computed separately, with
-  // 64 bits.
+  // sin = t pi/2 - t s R(s) with s = t^2. R is a minimax polynomial of degree 3, Q32; before the rounding of its
+  // coefficients, the error of the sine is 2^-38.6. The leading term is computed separately, with 64 bits.
   const uint32_t r = 0xa55de72b - high_product(s, 0x1466bb96 - high_product(s, 0x132c9fd - high_product(s, 0xa5cf6)));
   const int64_t lead = t * (int64_t{1} << 30) + ((t * 0x921fb544) >> 2);            // Q62
   const int64_t sine = round_shift_64(lead - ((t * high_product(s, r)) >> 2), 32);  // Q30
 
-  // cos = 1 - s Q(s), Q minimax of degree 4, Q31: error 2^-43.9.
+  // cos = 1 - s Q(s). Q is a minimax polynomial of degree 4, Q31; before the rounding of its coefficients, the error of
+  // the cosine is 2^-43.9.
   const uint32_t q =
       0x9de9e64e -
       high_product(s, 0x20783e0f - high_product(s, 0x2aba777 - high_product(s, 0x1e1e86 - high_product(s, 0xd084))));
-  const uint64_t versed = uint64_t{s} * q + high_product(static_cast<uint32_t>(square), q);  // Q63, all 64 bits of s
+  // s Q(s), Q63, computed with all 64 bits of t^2.
+  const uint64_t versed = uint64_t{s} * q + high_product(static_cast<uint32_t>(square), q);
   const int64_t cosine = round_shift_64((int64_t{1} << 62) - static_cast<int64_t>(versed >> 1), 32);
 
   const int32_t a = static_cast<int32_t>(sine);
@@ -38,14 +40,16 @@ uint32_t arc_tangent_raw(int32_t y, int32_t x) {
   const uint64_t large = steep ? y_size : x_size;
   const uint64_t small = steep ? x_size : y_size;
   if (large == 0) return 0;
-  // Beyond tan(pi/8) = 0x6a09e668 2^-32 the angle is 1/8 turn + atan((small - large) / (small + large)).
+  // If small / large > tan(pi/8) = 0x6a09e668 2^-32, the angle is computed as
+  // 1/8 turn - atan((large - small) / (large + small)).
   const bool turned = (small << 32) > 0x6a09e668 * large;
   const uint64_t numerator = turned ? large - small : small;
   const uint64_t denominator = turned ? large + small : large;
   const uint32_t z = static_cast<uint32_t>(((numerator << 32) + denominator / 2) / denominator);
   const uint32_t s = high_product(z, z);
 
-  // atan / 2 pi = z / 2 pi - z s B(s), B minimax of degree 5, Q36: error 2^-40 turns.
+  // atan(z) / 2 pi = z / 2 pi - z s B(s) with s = z^2. B is a minimax polynomial of degree 5, Q36; before the rounding
+  // of its coefficients, the error is 2^-40 turns.
   const uint32_t b =
       0xd94cae95 -
       high_product(

@@ -4,14 +4,15 @@
 
 #include "math/wide.h"
 
-/// Exact integer vectors. lib/distance and lib/toi compute with them, in the same way in every configuration.
+/// Vectors of integers, whose functions are exact unless stated otherwise. lib/distance and lib/toi compute with them,
+/// in the same way in every configuration.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 using Vec32 = Vec3<int32_t>;
 using Vec64 = Vec3<int64_t>;
 
-/// 1 in Q30, the format of unit vectors, rotations and fractions.
+/// The number 1 in Q30, the format of unit vectors, rotations and fractions.
 inline constexpr int32_t k_one = 1 << 30;
 inline constexpr int64_t k_one_64 = k_one;
 
@@ -23,23 +24,23 @@ DETENT_SHARED constexpr Vec64 negate(const Vec64& a) { return {-a.x, -a.y, -a.z}
 DETENT_SHARED constexpr bool is_zero(const Vec32& a) { return (a.x | a.y | a.z) == 0; }
 DETENT_SHARED constexpr bool is_zero(const Vec64& a) { return (a.x | a.y | a.z) == 0; }
 
-/// Exact. Range: |a| |b| < 2^63.
+/// The dot product, exact. Range: |a| |b| < 2^63.
 DETENT_SHARED constexpr int64_t dot(const Vec32& a, const Vec32& b) {
   return int64_t{a.x} * b.x + int64_t{a.y} * b.y + int64_t{a.z} * b.z;
 }
-/// Exact. Range: |a| |b| < 2^63.
+/// The cross product, exact. Range: |a| |b| < 2^63.
 DETENT_SHARED constexpr Vec64 cross(const Vec32& a, const Vec32& b) {
   return {int64_t{a.y} * b.z - int64_t{a.z} * b.y, int64_t{a.z} * b.x - int64_t{a.x} * b.z,
           int64_t{a.x} * b.y - int64_t{a.y} * b.x};
 }
-/// Exact. Range: |a| |b| < 2^127.
+/// The dot product, exact. Range: |a| |b| < 2^127.
 DETENT_SHARED constexpr Int128 dot(const Vec64& a, const Vec64& b) {
   return Int128::product(a.x, b.x) + Int128::product(a.y, b.y) + Int128::product(a.z, b.z);
 }
 DETENT_SHARED constexpr Int128 dot(const Vec64& a, const Vec32& b) {
   return Int128::product_narrow(a.x, b.x) + Int128::product_narrow(a.y, b.y) + Int128::product_narrow(a.z, b.z);
 }
-/// -1, 0 or 1.
+/// The sign of `value`: -1, 0 or 1.
 constexpr int sign_of(Int128 value) {
   return value.high_word() < 0 ? -1 : (static_cast<uint64_t>(value.high_word()) | value.low_word()) != 0 ? 1 : 0;
 }

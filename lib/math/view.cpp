@@ -15,10 +15,10 @@ float to_float(double value) {
   return float_from_parts<float>(parts.mantissa, parts.exponent, parts.negative);
 }
 float relative(Coord a, Coord camera) { return to_float(a - camera); }
-/// Interpolates between two coordinates. Returns exactly `to` at alpha = 1, and exactly `from` if both are equal.
+/// Interpolates between two coordinates. Returns exactly `to` at alpha = 1, and exactly `from` if `from` equals `to`.
 Coord between(Coord from, Coord to, Unit alpha) { return alpha == 1.0 ? to : from + (to - from) * alpha; }
 #else
-/// Returns a - camera. The difference is exact (65 bits) and is rounded once.
+/// Returns a - camera, m. The exact difference, of up to 65 bits, is rounded once.
 float relative(Coord a, Coord camera) {
   const bool negative = a < camera;
   const uint64_t low = static_cast<uint64_t>(int64_t{negative ? a.raw : camera.raw});

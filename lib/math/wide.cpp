@@ -23,7 +23,7 @@ uint64_t divide_128_by_64(Words128 numerator, uint64_t divisor, uint64_t& remain
       estimate_rest += normal_high;
       if ((estimate_rest >> 32) != 0) break;
     }
-    rest = (rest << 32) + next - estimate * normal;  // modulo 2^64, and below `normal`
+    rest = (rest << 32) + next - estimate * normal;  // wraps in between; the result is below `normal`
     quotient = (quotient << 32) | estimate;
   }
   remainder = rest >> shift;

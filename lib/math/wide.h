@@ -1,9 +1,10 @@
 #pragma once
 #include "math/bits.h"
 
-/// 128-bit integers for exact products, in two representations with one interface: NativeInt128 is the compiler's own,
-/// PortableInt128 is built from 32x32->64 products for targets that have none. Tests compare their results.
-/// Nothing here calls a 128-bit routine of the compiler's support library: some targets lack them.
+/// 128-bit integers for exact products, in two representations with one interface. NativeInt128 is the compiler's own
+/// type. PortableInt128, for targets without such a type, uses products of 32 x 32 bits with results of 64 bits. Tests
+/// compare the results of both. No function calls a 128-bit routine of the compiler's support library: some targets
+/// lack them.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -27,19 +28,20 @@ struct PortableInt128 {
     return {(static_cast<uint64_t>(low_high) << 32) | (low_low & 0xffffffff),
             int64_t{a_high} * b_high + (high_low >> 32) + (low_high >> 32)};
   }
-  /// a b, exact; half the work of the full product.
+  /// a b, exact. Takes half the work of product().
   DETENT_SHARED static constexpr PortableInt128 product_narrow(int64_t a, int32_t b) {
     const int64_t tail = static_cast<int64_t>(static_cast<uint32_t>(a)) * b;
     const int64_t head = (a >> 32) * b + (tail >> 32);  // |.| < 2^62 + 2^31
     return {(static_cast<uint64_t>(head) << 32) | (static_cast<uint64_t>(tail) & 0xffffffff), head >> 32};
   }
 
-  /// (a0 b0 + a1 b1 + a2 b2) 2^-n as 64 bits. Range: |b| < 2^31 (not -2^31). Rounding: to nearest, ties up. Overflow:
+  /// (a0 b0 + a1 b1 + a2 b2) 2^-n as 64 bits. Range: b0, b1, b2 != -2^31. Rounding: to nearest, ties up. Overflow:
   /// wraps.
   template <int n>
   static constexpr int64_t narrow_sum(int64_t a0, int32_t b0, int64_t a1, int32_t b1, int64_t a2, int32_t b2) {
-    // a = high 2^32 + low with a signed low half. So each low product is below 2^62, and a sum of two fits in 64 bits.
-    // The high products are multiples of 2^32: they need no rounding, and wrapping them is correct modulo 2^64.
+    // Each a is split: a = high 2^32 + low with a signed low half. So the magnitude of each product low b is below
+    // 2^62, and a sum of two of them fits in 64 bits. The products high b have the factor 2^32: they need no rounding,
+    // and they may wrap, because the result is computed modulo 2^64.
     static_assert(n >= 1 && n <= 32);
     constexpr int64_t k_mask = (int64_t{1} << n) - 1;
     const int64_t low_01 = low_product(a0, b0) + low_product(a1, b1);
@@ -127,7 +129,7 @@ struct NativeInt128 {
   static constexpr NativeInt128 product(int64_t a, int64_t b) { return {static_cast<Value>(a) * b}; }
   static constexpr NativeInt128 product_narrow(int64_t a, int32_t b) { return product(a, b); }
 
-  /// As in PortableInt128.
+  /// As PortableInt128::narrow_sum().
   template <int n>
   static constexpr int64_t narrow_sum(int64_t a0, int32_t b0, int64_t a1, int32_t b1, int64_t a2, int32_t b2) {
     return rounded<n>(static_cast<Value>(a0) * b0 + static_cast<Value>(a1) * b1 + static_cast<Value>(a2) * b2);
@@ -160,7 +162,7 @@ struct NativeInt128 {
   constexpr NativeInt128 shift_left(int n) const { return {static_cast<Value>(static_cast<Bits>(value) << n)}; }
   constexpr int64_t round_shift(int n) const {
     if (n > 64) return round_shift_64(high_word(), n - 64);
-    // Shifted up, so that the result is the high word.
+    // The value is shifted up, so that the high word of `up` is the result before rounding.
     const Bits up = static_cast<Bits>(value) << ((64 - n) & 63);
     return static_cast<int64_t>(static_cast<uint64_t>(up >> 64) + (static_cast<uint64_t>(up) >> 63));
   }
@@ -187,7 +189,7 @@ using Int128 = NativeInt128;
 using Int128 = PortableInt128;
 #endif
 
-/// An unsigned 128-bit number in words.
+/// An unsigned 128-bit number in two words: high 2^64 + low.
 struct Words128 {
   uint64_t high;
   uint64_t low;
@@ -203,11 +205,12 @@ constexpr int bit_length_128(Words128 value) {
   return value.high != 0 ? 64 + bit_length_64(value.high) : bit_length_64(value.low);
 }
 
-/// The floor of numerator / divisor, with the remainder. Range: numerator.high < divisor (so the quotient fits).
-/// Source: Knuth, TAOCP vol. 2, 4.3.1 algorithm D, on two digits of 32 bits.
+/// Returns the floor of numerator / divisor, and sets `remainder`. Range: numerator.high < divisor, so that the
+/// quotient fits. Source: Knuth, TAOCP vol. 2, 4.3.1 algorithm D, on two digits of 32 bits.
 uint64_t divide_128_by_64(Words128 numerator, uint64_t divisor, uint64_t& remainder);
 
-/// numerator / divisor. Range: divisor != 0. Rounding: to nearest, ties up. Overflow: saturates.
+/// Returns numerator / divisor, or its negative if `negative`. Range: divisor != 0. Rounding: to nearest, ties up.
+/// Overflow: saturates.
 int64_t divide_rounded(bool negative, Words128 numerator, uint64_t divisor);
 template <class Wide>
 int64_t divide_rounded(Wide numerator, int64_t divisor) {

@@ -8,12 +8,12 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int k_rest_power = -5;
-constexpr Real k_slow_max = 1024.0;  ///< m/s: a faster body is not at rest, and its squared speed may overflow
+/// A speed, m/s, above which a body never counts as at rest. Below it, squared speeds do not overflow.
+constexpr Real k_slow_max = 1024.0;
 
-/// Whether no point of a body is faster than `slow`, m/s. Estimated from the kinetic energy per unit mass:
-/// 2 (v . v + w . L / m) < slow^2, with the velocity v, angular velocity w, angular momentum L and mass m. The estimate
-/// therefore permits a slender body a faster rotation about its long axis than about the other axes. Range:
-/// slow <= k_slow_max.
+/// Whether all points of a body are slower than `slow`, m/s. The function estimates this from the kinetic energy per
+/// unit mass: 2 (v . v + w . L / m) < slow^2, with the velocity v, angular velocity w, angular momentum L and mass m.
+/// Therefore a slender body may rotate faster about its long axis than about the other axes. Range: slow <= k_slow_max.
 bool is_slower(const Vec3<Real>& velocity, const Vec3<Real>& angular_velocity, const Vec3<Real>& angular_momentum,
                Real slow) {
   if (greatest(velocity) > slow || greatest(angular_velocity) > k_slow_max || greatest(angular_momentum) > k_slow_max)
@@ -21,8 +21,8 @@ bool is_slower(const Vec3<Real>& velocity, const Vec3<Real>& angular_velocity, c
   return scale_by_power(dot(velocity, velocity) + dot(angular_velocity, angular_momentum), 1) < slow * slow;
 }
 
-/// Whether a body is at rest (activity.h), by its velocity and by its displacement and rotation in the tick. A body
-/// that rotated by more than 1 rad in the tick is not at rest.
+/// Whether a body is at rest (fall_asleep() in activity.h), judged by its velocity and by its displacement and rotation
+/// in the tick. A body that rotated by more than 1 rad in the tick is not at rest.
 bool is_resting(const StepSettings& settings, const BodyProperties& properties, const BodyPose& pose,
                 const BodySweep& sweep, const BodyMotion& motion) {
   const Real slow = scale_by_power(fall_speed(settings, shape_extent(properties)), k_rest_power);

@@ -13,7 +13,8 @@ struct BodyFrame {
 };
 
 /// Rotates the frame about one of its axes for `time`, s. The angular velocity is `rate` times the angular momentum
-/// about that axis. The angular momentum stays constant in world axes.
+/// about that axis, m/s at the radius 2^exponent m. The angular momentum stays constant in world axes. Sets `clamped`
+/// if the angular velocity or the angle leaves its range.
 void rotate_about(int axis, Scaled rate, int exponent, Real time, BodyFrame& frame, bool& clamped) {
   bool saturated = false;
   const Real angular_velocity = multiply(frame.angular_momentum[axis], rate, saturated);

@@ -16,14 +16,14 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-inline constexpr Real k_speed_max = 16384.0;  ///< m/s, in the state: each component of velocity
-/// In the state, m/s: limit of each component of w u. The bounding radius is at least u / 2, so a body at this limit
-/// has a surface speed of at least half the limit.
+inline constexpr Real k_speed_max = 16384.0;  ///< limit of each component of a stored velocity, m/s
+/// Limit of each component of a stored angular velocity w u, m/s. The bounding radius is at least u / 2. So if |w u| is
+/// at this limit, a point at the bounding radius from the axis of rotation moves with at least half the limit.
 inline constexpr Real k_angular_velocity_max = 32768.0;
-inline constexpr Real k_speed_work_max = 32768.0;  ///< m/s, velocity during a solve
+inline constexpr Real k_speed_work_max = 32768.0;  ///< limit of each component of a velocity during a solve, m/s
 /// Limit of each component of the stored momentum L / (m u) during a solve, m/s. The stored inverse inertia m u^2 / I
-/// is at least 1 about each axis that is not locked. So |w u| is at least |L / (m u)|, if L has no component about a
-/// locked axis.
+/// is at least 1 about each axis that is not locked. Therefore |w u| is at least |L / (m u)| for an L without
+/// components about locked axes.
 inline constexpr Real k_angular_velocity_work_max = 65536.0;
 
 /// Clamps each component to +-limit. Returns the number of components that changed.
@@ -47,7 +47,8 @@ inline bool is_isotropic(const BodyProperties& properties) {
          properties.inverse_inertia[1] == properties.inverse_inertia[2];
 }
 
-/// Converts an arc, m, at radius 2^exponent m, to an angle, rad. Overflow: clamps to +-2^15 rad and sets `clamped`.
+/// Converts an arc, m, at radius 2^exponent m, to an angle, rad. Overflow: clamps the arc to +-2^16 m and the angle to
+/// +-2^15 rad, and sets `clamped`.
 inline Real angle_of(Real arc, int exponent, bool& clamped) {
   const Real limit = real_from_unit(Unit(1.0), exponent > 1 ? 16 : 15 + exponent);
   const Real held = clamp(arc, -limit, limit);
@@ -112,10 +113,11 @@ inline Vec3<Real> without_locked(const BodyProperties& properties, const Quat& r
 ///
 /// The motion of each term is an exact rotation: about L, about a, and about c. In each of 2^halvings steps, the
 /// rotation about c is done in two halves, before and after the rotation about a (Strang splitting). This conserves the
-/// angular momentum exactly, and the energy to second order in 1/I_c - 1/I_b. The motion of a symmetric body is exact,
-/// even if it is slender. `angular_velocity` becomes angular_velocity_of() at the start. Returns false if an angle was
-/// clamped to 2^15 rad or an angular velocity to the range of Real. Source: Dullweber, Leimkuhler, McLachlan,
-/// "Symplectic splitting methods for rigid body molecular dynamics", 1997.
+/// angular momentum exactly. The error of the energy is proportional to 1/I_c - 1/I_b and to the square of the step's
+/// length. The motion of a symmetric body is exact, even if it is slender. `free`: the result of free_rotation_of().
+/// Sets `angular_velocity` to the angular velocity at the start, as angular_velocity_of() returns it. Returns false if
+/// an angle was clamped by angle_of(), or an angular velocity to the range of Real. Source: Dullweber, Leimkuhler,
+/// McLachlan, "Symplectic splitting methods for rigid body molecular dynamics", 1997.
 bool rotate_freely(const BodyProperties& properties, const FreeRotation& free, const Vec3<Real>& angular_momentum,
                    Real time, int halvings, Quat& rotation, Vec3<Real>& angular_velocity);
 

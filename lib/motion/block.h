@@ -6,31 +6,33 @@
 #include "math/root.h"
 #include "math/scaled.h"
 
-/// Block floating point for one contact. In a pass, the numbers of a contact (speeds, impulses, or lengths) share one
-/// power of two, the block. The largest number determines the block. The numbers have so few bits that a sum of
-/// products has at most 53 bits. A double holds such a sum exactly, and lanes compute with doubles
-/// (lib/solver/lanes.h). The state stays in Real. An impulse is rounded to the block once, and then acts on both
-/// bodies; therefore the rounding conserves linear momentum. In float the same code uses plain numbers.
+/// Block floating point for one contact. When a pass of the solver processes a contact, the contact's speeds and
+/// impulses, or its lengths, are integer multiples of one power of two, the *block*. The largest of these numbers
+/// determines the block. The numbers have so few bits that a sum of products has at most 53 bits. A double holds such a
+/// sum exactly, and lanes compute with doubles (lib/solver/lanes.h). The stored state stays in Real. An impulse is
+/// rounded to the block once, and then acts on both bodies; therefore the rounding conserves linear momentum. In the
+/// float configurations the same code uses plain floating-point numbers.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 #if DETENT_FIXED
 
-/// A number of a block, in units of 2^shift ulps of Real.
+/// A number of a block. Its unit is the block's power of two: 2^shift_ ulps of Real (Block::shift_).
 using Ulps = int64_t;
 /// A number of a block that can be multiplied: within +-k_factor_max, unless a comment gives another range.
 using Factor = int32_t;
-/// A sum of products of factors and Units, in units of 2^-30 ulps.
+/// A sum of products of factors and Units, in 2^-30 of the block's unit.
 using UlpSum = int64_t;
 struct Mantissas {
   Factor x, y, z;
 };
 
 inline constexpr int64_t k_factor_max = int64_t{1} << 26;
-inline constexpr int64_t k_row_max = int64_t{1} << 24;  ///< range of L D in the factor of a contact's rows
-inline constexpr int k_mantissa_bits = 24;              ///< bits of a motion
-inline constexpr int k_number_bits = 24;                ///< bits of an impulse: a sum of four is a factor
-inline constexpr int k_wrench_bits = 25;                ///< bits of each part of a wrench
+/// Limit of the elements of L D in the factor L D L^T of a contact's rows.
+inline constexpr int64_t k_row_max = int64_t{1} << 24;
+inline constexpr int k_mantissa_bits = 24;  ///< bits of a mantissa of a velocity or displacement
+inline constexpr int k_number_bits = 24;    ///< bits of an impulse; a sum of four impulses is still a factor
+inline constexpr int k_wrench_bits = 25;    ///< bits of each part of a wrench
 /// The least shift of a block: the finest step of a block is 2^-37 m/s or m. Must exceed k_angular_velocity_power.
 inline constexpr int k_shift_min = 9;
 /// The solver stores angular velocities times 2^-k_angular_velocity_power, because the angular velocity of a slender
@@ -62,8 +64,8 @@ class Block {
     for (uint32_t i = 0; i < used; ++i) all |= magnitude_64(values[i].raw);
     bits_ |= all >> k_number_drop;
   }
-  /// Makes settle() choose a block in which a speed fits as a number. This speed is the lesser of two: `speed`, a
-  /// number of block `from`, times 2^exponent, and `most`. Range: both >= 0.
+  /// Makes settle() choose a block in which a speed fits as a number. This speed is `speed` 2^exponent or `most`,
+  /// whichever is less. `speed` is a number of block `from`. Range: `speed` and `most` are >= 0.
   void include_speed(Factor speed, const Block& from, int exponent, Real most) {
     if (speed == 0) return;
     const int bits = bit_length_64(static_cast<uint64_t>(speed)) + from.shift_ + exponent;
@@ -71,7 +73,7 @@ class Block {
     const int least = (bits < bits_max ? bits : bits_max) - k_number_bits;
     if (least > shift_) shift_ = least;
   }
-  /// Chooses the power of two of the block.
+  /// Chooses the block's power of two: the least one with which all included values fit.
   void settle() {
     const int least = bit_length_64(bits_) + k_bits_power;
     if (least > shift_) shift_ = least;
@@ -99,7 +101,7 @@ class Block {
     if (n < 0) return detent::held(round_shift_64(ulps, n < -63 ? 63 : -n));
     return detent::held(int64_t{ulps} << (n < 31 ? n : 31));
   }
-  /// v times share times 2^exponent, in Real.
+  /// v times share times 2^exponent, converted from the block to Real.
   DETENT_SHARED Vec3<Real> real(const Mantissas& v, Scaled share, int exponent) const {
     const int64_t x = int64_t{v.x} * share.mantissa, y = int64_t{v.y} * share.mantissa,
                   z = int64_t{v.z} * share.mantissa;
@@ -109,7 +111,8 @@ class Block {
               Real::from_raw(round_shift_64(z, n))};
     return {Real::from_raw(shift_64(x, -n)), Real::from_raw(shift_64(y, -n)), Real::from_raw(shift_64(z, -n))};
   }
-  /// Rounds all `parts` to the least power of two at which they fit a wrench, and sets the block to this power.
+  /// Makes the block's power of two as large as is necessary for all `parts` to fit in k_wrench_bits, and rounds the
+  /// parts to it.
   template <unsigned count>
   void coarsen(Ulps (&parts)[count]) {
     uint64_t all = 0;
@@ -127,12 +130,12 @@ class Block {
 
 /// The number of fraction bits of the Units that are multiplied by factors: these Units are rounded to 2^-24.
 inline constexpr int k_fine_frac = 24;
-/// Rounds to 2^-24. Range: |value| <= 1.
+/// Rounds to a multiple of 2^-24. Range: |value| <= 1.
 inline Unit fine(Unit value) {
   constexpr int32_t k_step = 1 << (k_unit_frac - k_fine_frac);
   return Unit::from_raw((value.raw + k_step / 2) & -k_step);
 }
-/// Rounds an arm to 2^-23, so that it has at most 24 bits. Range: |arm| < 2 - 2^-23.
+/// Rounds the components of an arm to multiples of 2^-23, so that they have at most 24 bits. Range: |arm| < 2 - 2^-23.
 inline Vec3<Unit> fine_arm(const Vec3<Unit>& arm) {
   constexpr int32_t k_step = 2 << (k_unit_frac - k_fine_frac);
   const auto part = [](Unit value) {
@@ -168,8 +171,8 @@ DETENT_SHARED inline Ulps times(Factor a, Unit b) { return rounded(product(a, b)
 inline Ulps times_scaled(Factor a, Unit b, int exponent) {
   return rounded_shift(product(a, b), k_unit_frac - exponent);
 }
-/// Converts a number to a sum of products, and back, if the Units in the products are mantissas times 2^exponent.
-/// Range: exponent < 30.
+/// sum_from() converts a number to a sum of products; rounded() converts such a sum back to a number. The Units in the
+/// products are mantissas of values with the exponent `exponent`. Range: exponent < 30.
 inline UlpSum sum_from(Ulps a, int exponent) {
   return static_cast<int64_t>(static_cast<uint64_t>(a) << (k_unit_frac - exponent));
 }

@@ -4,14 +4,15 @@
 #include "motion/step_settings.h"
 
 /// The relative motion of the two bodies of a contact, and the effect of an impulse between them. The frame is the
-/// contact's (normal n, tangents t and s), at the middle of the contact's points. With r the arm from a body's centre
-/// to this middle, v the velocity and w the angular velocity of a body:
+/// contact frame: its axes are the normal n and the tangents t and s, its origin is the middle of the contact's points.
+/// With r the arm from a body's centre to this middle, v the velocity and w the angular velocity of a body, the parts
+/// of the motion are the components along n, t and s of these two vectors:
 ///
 ///     linear:  n, t, s . ((v_B + w_B x r_B) - (v_A + w_A x r_A)), m/s
 ///     angular: n, t, s . (w_B - w_A) u, m/s; u is the pair's unit of length, m
 ///
-/// The code is generic. `Kind` names the types and operations to solve one contact at a time (One), or several contacts
-/// at once (LaneKind, lib/solver/lane_contact.h).
+/// The templates have a parameter `Kind`, which names types and operations: those of One solve one contact at a time,
+/// those of LaneKind (lib/solver/lane_contact.h) solve several contacts at once.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -72,8 +73,8 @@ struct One {
   static constexpr bool has_point(const Contact&, uint32_t) { return true; }
 #if DETENT_FIXED
   using Wide = int64_t;
-  // The next functions are for the factor L D L^T of the rows of a contact's points. Mantissas of the coupling have 24
-  // fraction bits, elements of L 20, inverse pivots 16.
+  // The next functions are for the factor L D L^T of the normal rows of a contact. Mantissas of the matrix
+  // (ContactWork::coupling) have 24 fraction bits, elements of L have 20, inverse pivots have 16.
   static Factor mantissa(const Contact& contact, uint32_t i, uint32_t k) { return contact.coupling[i][k].raw >> 6; }
   static Wide widened(Factor value) { return int64_t{value} << 20; }
   static Wide wide(Factor a, Factor b) { return int64_t{a} * b; }
@@ -107,7 +108,7 @@ struct One {
 #endif
   static bool is_positive(Unit value) { return value > Unit(0.0); }
   static Factor factor(Ulps value) { return static_cast<Factor>(value); }
-  /// Clamps a normal impulse to its range: not negative, and a factor.
+  /// Clamps a normal impulse to its range: at least 0, and in fixed point at most k_factor_max.
   static Ulps impulse(Ulps value) {
 #if DETENT_FIXED
     return value < 0 ? 0 : value > k_factor_max ? k_factor_max : value;
@@ -148,7 +149,7 @@ struct PairMotion {
     return held(rounded(dot(translation, contact.normal) +
                         (dot(angular_velocity_b, contact.moment_b) - dot(angular_velocity_a, contact.moment_a))));
   }
-  /// Relative velocity at the middle, world axes.
+  /// Relative velocity or displacement at the middle of the contact's points, world axes.
   typename Kind::Vector at_middle(const typename Kind::Contact& contact) const {
     const auto &a = contact.middle_a, &b = contact.middle_b;
     return rounded(whole(translation.x) + (cross_part(angular_velocity_b.y, b.z, angular_velocity_b.z, b.y) -
@@ -158,7 +159,7 @@ struct PairMotion {
                    whole(translation.z) + (cross_part(angular_velocity_b.x, b.y, angular_velocity_b.y, b.x) -
                                            cross_part(angular_velocity_a.x, a.y, angular_velocity_a.y, a.x)));
   }
-  /// Relative angular velocity times the pair's unit of length, world axes.
+  /// Relative angular velocity, or rotation vector, times the pair's unit of length, world axes.
   typename Kind::Vector turning(const typename Kind::Contact& contact) const {
     const auto a = contact.unit_a, b = contact.unit_b;
     return rounded(product(angular_velocity_b.x, b) - product(angular_velocity_a.x, a),
@@ -173,7 +174,8 @@ struct PairMotion {
 };
 
 /// The parts of the relative motion that determine the normal velocity of the points. A point at the coordinates (x, y)
-/// along the two tangents, relative to the middle, has the normal velocity along + about_first y - about_second x.
+/// along the two tangents, relative to the middle of the points, has this normal velocity: `along` + `about_first` y -
+/// `about_second` x.
 template <class Kind>
 struct NormalMotion {
   typename Kind::Factor along, about_first, about_second;
@@ -191,20 +193,20 @@ struct NormalMotion {
   }
 };
 
-/// The change of a body's motion by contacts in this substep. `kept`: see kept_at_start(). In fixed point the result is
-/// the difference from the motion before contacts changed it, which is exact. In float `kept` is the sum of the
-/// changes, because a difference would lose small impulses at high speeds.
+/// Returns the change of a body's motion (velocity or angular momentum) by contacts in this substep. In fixed point
+/// `kept` is minus the motion before the contacts changed it, and the difference is exact. In float `kept` is the sum
+/// of the changes, because a difference would lose small impulses at high speeds.
 inline Vec3<Real> added_by_contacts(const Vec3<Real>& motion, const Vec3<Real>& kept) {
   return DETENT_FIXED ? motion + kept : kept;
 }
-/// The value `kept` for added_by_contacts(). `motion`: the motion before contacts have changed it. `added`: the sum of
-/// the changes so far.
+/// Returns the first value of `kept` in a substep. `motion`: the motion before contacts change it. `added`: the change
+/// that the warm start then adds to it.
 inline Vec3<Real> kept_at_start(const Vec3<Real>& motion, const Vec3<Real>& added) {
   return DETENT_FIXED ? -motion : added;
 }
 
-/// Applies a wrench (if `adds`) or the opposite wrench to a body. `share` is the relative inverse mass of the body;
-/// `torque` is in the body's unit of length:
+/// Applies the wrench (force, torque) to a body, or the opposite wrench if `adds` is false. `share` is the relative
+/// inverse mass of the body. `torque` is in the body's unit of length. The changes are:
 ///
 ///     velocity += share force;  momentum += share torque;  angular velocity += share inverse inertia torque
 template <class Kind, bool adds>

@@ -16,7 +16,8 @@ Vec3<Real> local_angular_velocity(const BodyProperties& properties, const Vec3<R
           multiply(angular_momentum.z, properties.inverse_inertia[2], saturated)};
 }
 
-constexpr int k_quarterings_max = 64;  ///< enough, because inverse inertias are far below 4^64
+/// Limit of the passes in clamp_speeds(); enough, because inverse inertias are far below 4^64.
+constexpr int k_quarterings_max = 64;
 
 /// Whether the angular velocity is far below its limit for any orientation of the body.
 bool is_slow(const BodyProperties& properties, const Vec3<Real>& angular_momentum) {
@@ -37,8 +38,9 @@ uint32_t clamp_speeds(const BodyProperties& properties, const Quat& rotation, Bo
   const bool turned = !is_isotropic(properties);
   Vec3<Real> local, angular_velocity;
   // Joints and impacts may leave an angular velocity beyond the range of Real. If a component in the body's axes is
-  // more than twice the limit, then a component in world axes exceeds the limit. Each pass scales the momentum by the
-  // limit over the greatest component. If that component has saturated, the pass divides the momentum by about 4.
+  // more than twice the limit, then a component in world axes exceeds the limit. Each pass scales the momentum so that
+  // the greatest component comes down to the limit. If that component has saturated at the range of Real, the pass
+  // divides the momentum by about 4.
   for (int quartering = 0; quartering < k_quarterings_max; ++quartering) {
     local = turned ? rotate_inverse(rotation, motion.angular_momentum) : motion.angular_momentum;
     angular_velocity = local_angular_velocity(properties, local);

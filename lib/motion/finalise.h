@@ -19,8 +19,8 @@ inline Sweep rest_of_tick(const BodySweep& sweep) {
 }
 
 /// Ends the tick of a body that may have moved. The pose becomes the pose at the end of the sweep. A dynamic body loses
-/// the angular momentum about its locked axes, and clamp_speeds() clamps its velocities. Returns the number of
-/// coordinates of the position that were clamped plus the result of clamp_speeds().
+/// the angular momentum about its locked axes, and clamp_speeds() clamps its velocities. Returns a count of clamped
+/// values: the coordinates of the position that were clamped, plus the result of clamp_speeds().
 uint32_t finalise_body(const BodyProperties& properties, const BodySweep& sweep, BodyPose& pose, BodyMotion& motion);
 
 /// Clamps each component of the velocity to k_speed_max and of the angular momentum to k_angular_velocity_work_max.
@@ -28,10 +28,11 @@ uint32_t finalise_body(const BodyProperties& properties, const BodySweep& sweep,
 /// Returns the number of components that were clamped plus the number of times that the momentum was scaled.
 uint32_t clamp_speeds(const BodyProperties& properties, const Quat& rotation, BodyMotion& motion);
 
-/// Replaces the contacts of the last tick that are listed in `awake` with the contacts of this tick, and also replaces
-/// the manifolds if the world stores them. All lists are sorted. The contacts that are not listed belong to sleeping
-/// bodies and stay. `before`: the total number of contacts before the call. Elements that are no longer needed become
-/// zero. After the call, `awake` lists the contacts of this tick; it must have room for them.
+/// In `contacts`, replaces the contacts of the last tick that `awake` lists with the contacts of this tick, `work`.
+/// Does the same with the manifolds, if the world stores them. All lists are sorted. The contacts that `awake` does not
+/// list belong to sleeping bodies and stay. `awake_count`: the number of indices in `awake` before the call. `before`:
+/// the total number of contacts before the call. Elements that are no longer needed become zero. After the call,
+/// `awake` lists the contacts of this tick; it must have room for them.
 void store_contacts(Span<const ContactWork> work, Span<const ManifoldState> manifold_work, uint32_t awake_count,
                     uint32_t before, Span<ContactState> contacts, Span<ManifoldState> manifolds, Span<uint32_t> awake);
 

@@ -15,8 +15,9 @@ Real start_body(const StepSettings& settings, const BodyProperties& properties, 
 
 /// The speculative distance of a pair, m: contact points are found up to this separation. It is the contact margin plus
 /// the distance by which the bodies can approach each other in the tick. `extent`: BodyWork::extent of the smaller
-/// body, m. `speed`: the sum of both BodyWork::speed, m/s. The approach counts up to a quarter of the extent. If a body
-/// has joints, it counts up to twice the extent, because impacts do not stop jointed bodies (ccd/impact.h).
+/// body, m. `speed`: the sum of both BodyWork::speed, m/s. The distance of approach counts at most as a quarter of the
+/// extent; if a body of the pair has joints, at most as twice the extent, because impacts do not stop jointed bodies
+/// (ccd/impact.h).
 inline Real speculative_distance(const StepSettings& settings, Real extent, Real speed, bool jointed) {
   return extent * settings.contact_margin + min(scale_by_power(extent, jointed ? 1 : -2), speed * settings.tick_time);
 }

@@ -9,10 +9,12 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Factors of WorldDef::damping_ratio: for contacts between dynamic bodies, and for all other contacts.
+/// Factors by which WorldDef::damping_ratio is multiplied: for contacts between two dynamic bodies, and for all other
+/// contacts.
 constexpr Unit k_dynamic_damping = 0.7, k_static_damping = 0.5;
 
-constexpr Real k_contact_softness_max = 15.0;  ///< softer contacts become stiffer than their settings
+/// Limit of the softness of a row / the row's response. Contacts with softer settings are made stiffer.
+constexpr Real k_contact_softness_max = 15.0;
 
 /// Computes a Softness. `contact_frequency`: frequency of the spring / substep rate. `damping_ratio`: 1 is critical.
 Softness softness(Real contact_frequency, Real damping_ratio) {

@@ -9,21 +9,21 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Softness of a contact. A contact is a damped spring, solved implicitly. Its frequency is a fraction of the substep
-/// rate, so the members do not depend on the length of the substep. In islands with joints they do
-/// (k_jointed_stiffness).
+/// Softness of a contact. A contact is a damped spring, solved implicitly. In islands without joints, the frequency of
+/// the spring is a fixed fraction of the substep rate, so the members do not depend on the length of the substep. In
+/// islands with joints, they depend on it (k_jointed_stiffness).
 /// Source: Catto, "Soft Constraints", GDC 2011.
 struct Softness {
   Unit rate;           ///< fraction of the overlap that is corrected in a substep
-  Unit spring_eighth;  ///< softness of a row / (8 x response K of the row)
+  Unit spring_eighth;  ///< softness of a row / (8 K), with the row's response K to a unit impulse
 };
 
 /// The world's settings in the form that the stages use, derived once per step.
 struct StepSettings {
   uint32_t substeps_fixed;  ///< 0: the step chooses the number for each island
   uint32_t substeps_max;
-  /// (number of substeps / w)^2, s^2. w: angular frequency, rad/s, of contacts between dynamic bodies, proportional to
-  /// the number of substeps.
+  /// (n / w)^2, s^2, with the number of substeps n and the angular frequency w, rad/s, of contacts between dynamic
+  /// bodies. It does not depend on n, because w is proportional to n.
   Scaled substeps_per_rate;
   Scaled resting_penetration;  ///< depth to which a contact at rest may sink / extent of the smaller body
   uint32_t iterations;
@@ -45,13 +45,13 @@ struct StepSettings {
   bool jointed;            ///< the island has joints
   Real time;               ///< length of a substep, s
   Scaled rate;             ///< substeps per second
-  Scaled share;            ///< length of a substep over that of a tick
+  Scaled share;            ///< length of a substep / length of a tick
   Unit rate_mantissa;      ///< rate = rate_mantissa 2^rate_exponent
   int32_t rate_exponent;
   /// The gap, m, that a speed of 2^15 m/s closes in a substep.
   Real gap_max;
   Softness dynamic_softness;  ///< contacts between two dynamic bodies
-  Softness static_softness;   ///< all other contacts: twice the frequency, less damped
+  Softness static_softness;   ///< all other contacts: twice the frequency and less damping than dynamic_softness
   Unit relaxation;
   Vec3<Real> gravity;  ///< m/s^2
   /// Magnitude of gravity, m/s^2, but at least 1. Used to derive limits of speeds.

@@ -72,7 +72,7 @@ void draw_terrain(const World& world, const State& state, BodyId id, const Debug
     DrawKind kind;
   };
   Lines lines = {to, kind_of(state, id.slot - 1)};
-  // A terrain without asset bytes is not drawn; its bounds can be drawn.
+  // If the asset bytes of the terrain are missing, no triangles are drawn; draw_bounds() still works.
   static_cast<void>(visit_triangles(world, id, &lines, [](void* user, const BodyTriangle& triangle) {
     const Lines& drawn = *static_cast<const Lines*>(user);
     for (int k = 0; k < 3; ++k)

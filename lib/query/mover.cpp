@@ -15,7 +15,8 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr Real k_displacement_max = 256.0;
-constexpr Real k_arm_max = 16384.0;  ///< m, from the centre of a rotating ground
+/// Limit of the mover's distance from the centre of a rotating ground, per axis, m.
+constexpr Real k_arm_max = 16384.0;
 #if defined(DETENT_FX32)
 constexpr Real k_radius_min = 0x1p-4;
 #else
@@ -38,8 +39,8 @@ Status check_mover(const Mover& mover) {
   return normalise_input(mover.ground_pose.rotation, rotation) ? Status::ok : Status::not_normalised;
 }
 
-/// The displacement of the mover's position by the ground's motion since the last call; zero if it exceeds the limit of
-/// a requested displacement.
+/// The displacement, m, of the mover's position by the ground's motion since the last call; zero if it exceeds
+/// k_displacement_max.
 Vec3<Real> displacement_of_ground(const Mover& mover, const Pose& now) {
   const Pose& then = mover.ground_pose;
   Vec3<Real> displacement = real_difference(now.position, then.position);
@@ -52,9 +53,9 @@ Vec3<Real> displacement_of_ground(const Mover& mover, const Pose& now) {
   return within(displacement, k_displacement_max) ? displacement : k_zero_vector;
 }
 
-/// The impulse, N s, by which the mover pushes the body of a contact: it gives the body the speed of the requested
-/// displacement against the contact normal, and is at most push_force times the duration of a tick. Zero for a floor,
-/// for a body that is not dynamic, and for a body that is not slower than the displacement.
+/// The impulse, N s, by which the mover pushes the body of a contact: along the contact normal, it gives the body the
+/// speed of the requested displacement, but it is at most push_force times the duration of a tick. It is zero for a
+/// floor, for a body that is not dynamic, and for a body that already moves away at least as fast as the displacement.
 Vec3<Scaled> impulse_of(const World& world, const MoverSettings& settings, const MoverContact& contact,
                         const Vec3<Real>& displacement) {
   const StateView<const uint8_t> state = view_of(world);
@@ -100,7 +101,7 @@ Status move_mover(const World& world, const MoverSettings& asked, const Vec3<Rea
     motion.slide(displacement_of_ground(mover, ground), MoverGait::fall);
     motion.pass({});
   }
-  made.contact_count = made.contacts_dropped = 0;  // only contacts of the requested motion count
+  made.contact_count = made.contacts_dropped = 0;  // contacts made while the ground carried the mover do not count
   const Position carried = motion.position();
   motion.recover();
   const Position start = motion.position();

@@ -12,17 +12,18 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr Footing k_footings[] = {Footing::floor, Footing::edge};  // better footings come first
-/// Distances to bodies are measured from a shrunken core, a thin capsule inside the mover. An overlap of up to 7/8 of
-/// the radius is then still a positive distance.
+/// Distances to bodies are measured from a shrunken core: a capsule inside the mover with 2^k_core_power of its radius.
+/// If a body overlaps the mover by up to 7/8 of the radius, its distance from the core is still positive.
 constexpr int k_core_power = -3;
 constexpr uint32_t k_recoveries = 4;
-constexpr uint32_t k_hits_passed = 3;  ///< hits that a cast may ignore
-/// Normals with a greater cosine between them count as equal.
+constexpr uint32_t k_hits_passed = 3;  ///< largest number of hits through which a cast continues
+/// If the cosine between two normals is greater than this, they count as equal.
 constexpr Unit k_apart_cosine = 0.9999;
-/// The smallest component along `up` of the normal of an edge to stand on.
+/// The smallest component along `up` that the normal at an edge must have for the mover to stand on the edge.
 constexpr Unit k_edge_cosine = 0.125;
 
-/// As push_out(), for a terrain: the normal points to the side of the triangle on which the mover's centre is.
+/// As push_out(), for the triangle hit.triangle of a terrain. The normal points to the side of the triangle on which
+/// the mover's centre is.
 bool push_out_of_terrain(const World& world, const QueryHit& hit, const Shape& core, const Pose& at,
                          const Vec3<Unit>& up, Vec3<Unit>& normal, Real& depth) {
   const StateView<const uint8_t> state = view_of(world);
@@ -35,8 +36,8 @@ bool push_out_of_terrain(const World& world, const QueryHit& hit, const Shape& c
   return true;
 }
 
-/// The normal and the depth of a body that overlaps even the core; for a compound, those of the part with the deepest
-/// overlap.
+/// For a body that overlaps even the shrunken core: sets `normal` and `depth`, m, of the overlap with the core. For a
+/// compound, they are those of the part with the deepest overlap. Returns false if no overlap is found.
 bool push_out(const World& world, BodyId body, const Shape& core, const Pose& at, Vec3<Unit>& normal, Real& depth) {
   const StateView<const uint8_t> state = view_of(world);
   const BodyProperties& properties = state.properties[body.slot - 1];
@@ -105,8 +106,8 @@ void MoverMotion::add_plane(const MoverPlane& plane) {
     planes_[plane_count_++] = plane;
 }
 
-/// Adds the planes of a terrain other than that of its nearest point, which was added last. One terrain may have both
-/// the floor and walls.
+/// Adds the planes of a terrain, because one terrain may be both floor and walls. The plane of its nearest point was
+/// added just before, and is left out.
 void MoverMotion::add_terrain(const QueryHit& hit) {
   const StateView<const uint8_t> state = view_of(world_);
   const BodyPose& ground = state.poses[hit.body.slot - 1];
@@ -188,14 +189,15 @@ void MoverMotion::look_around() {
   free_radius_ = min(settings_.radius, query.shape.radius + nearest - half_gap);
 }
 
-/// Whether the cast continues through a hit: the body is ignored, or the core already overlaps it and moves out.
+/// Whether a cast continues through a hit: either the mover ignores the body, or the core of a stuck mover touches the
+/// body at the start and does not move into it.
 bool MoverMotion::passes(const QueryHit& hit, const Vec3<Real>& displacement) const {
   if (hit.body == passed_) return true;
   return caught() && hit.fraction.raw == 0 && !hit.undecided && dot(displacement, hit.normal) >= k_zero;
 }
 
-/// Moves along `displacement`, which is at least k_mover_still long, up to the gap before the first obstacle, and keeps
-/// the plane of that obstacle. If the mover is stuck, only its core is cast.
+/// Moves along `displacement` until only the gap to the first obstacle is left, and keeps the plane of that obstacle.
+/// If the mover is stuck, casts only its core. Range: `displacement` is at least k_mover_still long.
 void MoverMotion::step_along(const Vec3<Real>& displacement) {
   const Real core = scale_by_power(settings_.radius, k_core_power);
   CastQuery query;
@@ -204,14 +206,14 @@ void MoverMotion::step_along(const Vec3<Real>& displacement) {
   query.rotation = settings_.rotation;
   query.displacement = displacement;
   query.filter = settings_.filter;
-  query.all = caught() || passed_.slot != 0;  // to find hits behind the ignored ones
+  query.all = caught() || passed_.slot != 0;  // because hits behind the ignored ones are needed
   QueryHit hits[k_hits_passed + 1];
   const uint32_t room_for = query.all ? k_hits_passed + 1 : 1;
   const uint32_t count = ask(query_cast, query, {hits, room_for}).hits;
   if (status_ != Status::ok) return;
   uint32_t first = 0;
   while (first < count && passes(hits[first], displacement)) ++first;
-  if (first == room_for) {  // the hits behind these are unknown
+  if (first == room_for) {  // the buffer had no room for hits behind these
     ++report_.hits_dropped;
     return;
   }
@@ -235,7 +237,8 @@ void MoverMotion::step_along(const Vec3<Real>& displacement) {
   for (uint32_t i = 0; i < hit_count_; ++i) planes_[i].room += dot(gone, planes_[i].normal);
 }
 
-/// Tests by a ray whether the body beside the contact point, under the mover's foot, is a floor; sets the footing.
+/// Sets the footing of a plane if it is still unknown. Casts a ray down beside the contact point, on the side of the
+/// body: the plane is the edge of a floor if the ray hits a floor.
 void MoverMotion::find_footing(MoverPlane& plane) {
   if (plane.footing != Footing::unknown) return;
   plane.footing = Footing::none;
@@ -253,7 +256,7 @@ void MoverMotion::find_footing(MoverPlane& plane) {
   if (!hit.undecided && dot(hit.normal, up_) >= settings_.slope_cosine) plane.footing = Footing::edge;
 }
 
-/// Adds the planes whose bits are set to the contacts of the report.
+/// For each set bit i of `touched`, adds plane i to the contacts of the report.
 void MoverMotion::note(uint32_t touched) {
   for (uint32_t i = 0; i < plane_count_; ++i) {
     if ((touched >> i & 1) == 0) continue;
@@ -293,7 +296,7 @@ Vec3<Real> MoverMotion::slide(Vec3<Real> displacement, MoverGait gait) {
     step_along(next);
     const Vec3<Real> gone = real_difference(position_, from);
     displacement -= gone;
-    if (gait == MoverGait::walk) displacement -= up_ * dot(displacement, up_);  // do not undo the rise over floors
+    if (gait == MoverGait::walk) displacement -= up_ * dot(displacement, up_);  // keeps the rise over floors
     if (within(displacement, k_mover_still) || (within(gone, k_mover_still) && hit_count_ == hits_before))
       return displacement;
   }

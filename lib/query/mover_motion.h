@@ -6,15 +6,15 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Limits of a motion: the number of planes of nearby bodies, and of changes of direction, each of which can add one
-/// plane.
+/// Limits of a motion: the number of planes of nearby bodies, and the number of rounds. In each round the mover may hit
+/// an obstacle, whose plane is added, and change its direction.
 inline constexpr uint32_t k_mover_near_max = 16, k_mover_rounds_max = 8;
 inline constexpr uint32_t k_mover_planes_max = k_mover_near_max + k_mover_rounds_max;
 
 /// A mover during a motion: its position and the planes of the bodies around it, found by the queries of query.h.
 class MoverMotion {
  public:
-  /// `settings`: in range, with a normalised rotation.
+  /// Range: `settings` are in range, and their rotation is normalised.
   MoverMotion(const World& world, const MoverSettings& settings, const Position& start, MoverReport& report);
 
   const Position& position() const { return position_; }
@@ -22,7 +22,7 @@ class MoverMotion {
   /// ok, or the status of the last query that failed.
   Status status() const { return status_; }
 
-  /// Makes the motion pass through this body from now on; null: through no body.
+  /// From now on the mover passes through this body. Null: through no body.
   void pass(BodyId body) {
     passed_ = body;
     known_ = false;
@@ -33,7 +33,8 @@ class MoverMotion {
   void go(const Vec3<Real>& displacement);
   /// Moves away from bodies that are nearer than the gap. Stores the remaining overlap in the report.
   void recover();
-  /// The floor that the mover stands on, or null. It may be an edge whose normal is not that of a floor.
+  /// The plane of the floor that the mover stands on, or null. It may be the edge of a floor; its normal may then be
+  /// steeper than that of a floor.
   const MoverPlane* find_floor();
   /// Steps over an obstacle: moves up, forward along `rest`, and down to a floor. If that fails, restores the position
   /// and returns false.
@@ -70,10 +71,10 @@ class MoverMotion {
   BodyId passed_ = {};
   Status status_ = Status::ok;
   MoverPlane planes_[k_mover_planes_max];
-  uint32_t hit_count_ = 0;    ///< number of planes hit during the motion; they come first
-  uint32_t plane_count_ = 0;  ///< number of all planes; those of nearby bodies follow
+  uint32_t hit_count_ = 0;    ///< number of planes hit during the motion; they come first in `planes_`
+  uint32_t plane_count_ = 0;  ///< number of all planes in `planes_`; those of nearby bodies follow
   bool known_ = false;        ///< the planes of nearby bodies are valid for the position
-  Real free_radius_;          ///< radius of the shrunken capsule that overlaps nothing, m
+  Real free_radius_;  ///< radius, m, of the thickest capsule, up to the mover's, with half the gap to all bodies
 };
 
 }  // namespace DETENT_NAMESPACE

@@ -8,12 +8,12 @@ namespace {
 
 constexpr uint32_t k_plane_sweeps = 32;
 
-/// A plane and the direction in which it corrects the displacement.
+/// A plane, and the correction of the displacement by it: `pushed` (m) in the direction `along`.
 struct PlanePush {
   Vec3<Unit> normal;
   Vec3<Unit> along;
   Real share;  ///< 1 / (normal . along)
-  Real room;   ///< >= 0
+  Real room;   ///< distance to the plane along `normal` until only the gap is left, m, at least 0
   Real pushed = k_zero;
 };
 
@@ -28,7 +28,8 @@ PlanePush push_of(const MoverPlane& plane, const Vec3<Unit>& up, MoverGait gait)
   if (gait == MoverGait::fall || rise < Unit(0.0)) return push;
   Vec3<Unit> level;
   Unit size;
-  if (!normalise(plane.normal - up * rise, level, size)) return push;  // never: a normal along up is a floor
+  // Does not occur: a plane with a normal along `up` is a floor.
+  if (!normalise(plane.normal - up * rise, level, size)) return push;
   push.normal = push.along = level;
   push.room = divide(push.room, real_from_unit(size, 0));
   return push;
@@ -58,7 +59,8 @@ Vec3<Real> slide_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, 
   for (uint32_t i = 0; i < planes.count; ++i) {
     if (pushes[i].pushed > k_mover_still) touched |= 1u << i;
   }
-  // In a narrow wedge the sweeps end before they converge, so scale the displacement to keep the gap.
+  // In a narrow wedge the sweeps may end before they converge. The displacement is then scaled down so that the gap is
+  // kept.
   for (const MoverPlane& plane : planes) {
     const Real closing = -dot(displacement, plane.normal), room = max(plane.room, k_zero);
     if (closing > room + k_mover_still) displacement = displacement * divide(room, closing);

@@ -8,7 +8,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// How a motion treats a plane that is steeper than a floor.
+/// How a mover that slides treats a plane that is steeper than a floor.
 enum class MoverGait : uint32_t {
   walk,  ///< as a vertical wall
   fall,  ///< with its real slope
@@ -25,11 +25,11 @@ enum class Footing : uint32_t {
 /// A plane that separates a mover from a body.
 struct MoverPlane {
   Vec3<Unit> normal;  ///< outward normal of the body
-  Real room;          ///< distance along the normal until only the gap is left, m; negative: the mover is too near
+  Real room;          ///< distance by which the mover may approach before only the gap is left, m; negative: too near
   Footing footing;
   BodyId body;
   Position point;   ///< on the body
-  bool on_terrain;  ///< the body is a terrain: it may have several planes, each reported
+  bool on_terrain;  ///< the body is a terrain: it may have several planes, and each is reported
 };
 
 /// Displacements shorter than this count as no motion, m. In fx32, this is two units of a coordinate.
@@ -39,16 +39,16 @@ inline constexpr Real k_mover_still = Real(0x1p-15);
 inline constexpr Real k_mover_still = Real(0x1p-20);
 #endif
 
-/// Returns the displacement nearest to `wish` that keeps the gap to every plane; zero always satisfies this. A floor,
-/// in MoverGait::fall also the edge of a floor, changes the displacement only along `up`, so its horizontal part stays.
-/// Other planes change it according to the gait. Bit i of `touched` is set if plane i changed it. Source: Hildreth, "A
-/// quadratic programming procedure", 1957; for corrections that are not along the normal, Cottle, Pang, Stone, "The
-/// Linear Complementarity Problem", 5.2.
+/// Returns the displacement nearest to `wish` that keeps the gap to every plane; zero always satisfies this. A floor
+/// changes the displacement only along `up`, so the horizontal part of the displacement stays; in MoverGait::fall, the
+/// edge of a floor does so too. Other planes change the displacement according to the gait. Bit i of `touched` is set
+/// if plane i changed it. Source: Hildreth, "A quadratic programming procedure", 1957; for corrections that are not
+/// along the normal, Cottle, Pang, Stone, "The Linear Complementarity Problem", 5.2.
 Vec3<Real> slide_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, const Vec3<Unit>& up, MoverGait gait,
                          uint32_t& touched);
 
-/// Returns a displacement that restores the gap to the planes that are too near. If there is no position with the gap
-/// to all planes, the displacement leads to a position in the middle between them.
+/// Returns a displacement that restores the gap to the planes that are too near. If no position has the gap to all
+/// planes, the displacement leads to a position in the middle between opposite planes.
 Vec3<Real> push_out_of(Span<const MoverPlane> planes);
 
 }  // namespace DETENT_NAMESPACE

@@ -27,8 +27,8 @@ Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Re
   const BodyProperties& properties = state.properties[slot];
   const BodyMotion& motion = state.motions[slot];
   const Vec3<Real> speed = angular_velocity_of(properties, state.poses[slot].rotation, motion.angular_momentum);
-  // An angular velocity beyond Real's range, which only bodies below 12 cm can have, is clamped to that range, less a
-  // margin for rounding.
+  // An angular velocity beyond the range of Real is clamped to this range, less a margin for rounding. Only bodies with
+  // a bounding radius below about 12 cm can have one.
   const int exponent = properties.size_exponent;
   const Real limit = exponent < 0 ? scale_by_power(Real(131071.0), exponent) : k_real_max;
   const auto per_radius = [&](Real value) { return scale_by_power(clamp(value, -limit, limit), -exponent); };

@@ -24,16 +24,17 @@ bool is_motion(const Motion& motion) {
          length(motion.rotation_vector) <= Real(65536.0);
 }
 
-/// Half extents of the shape during the motion, 2^-46 m: those of its bounding sphere if it rotates.
+/// Half extents of the shape's bounds during the motion, in units of 2^-46 m: those of its bounding sphere if it
+/// rotates.
 Vec64 half_of(const QueryShape& shape, const Motion& motion, const Quat& rotation) {
   if (motion.rotation_vector == k_zero_vector) return query_half(shape, rotation);
   const Real ball = real_from_unit(shape.properties.bounding_radius, shape.properties.size_exponent);
   Vec64 raw;
-  if (!raw_from_real({ball, ball, ball}, raw)) return {0, 0, 0};  // never: it is finite
+  if (!raw_from_real({ball, ball, ball}, raw)) return {0, 0, 0};  // does not occur: the value is finite
   return raw;
 }
 
-/// Finds the hit on a terrain. False if there is none.
+/// As cast_at(), for a terrain.
 bool cast_at_terrain(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Motion& motion,
                      Fraction entry, QueryHit& hit) {
   const BodyProperties& properties = bodies.state.properties[slot];
@@ -47,7 +48,8 @@ bool cast_at_terrain(const QueryBodies& bodies, uint32_t slot, const QueryShape&
   return !asked || touched;
 }
 
-/// The first hit on a part of the body, or an undecided result that is earlier. False if a part could not be tested.
+/// Sets `first` to the earliest hit on a part of the body, or to an undecided result if that is earlier; its outcome is
+/// clear if there is neither. Returns false if a part could not be tested.
 bool first_impact(const QueryBodies& bodies, const BodyProperties& properties, const Motion& still,
                   const QueryShape& shape, const Motion& motion, TimeOfImpact& first) {
   first.outcome = ToiOutcome::clear;
@@ -64,7 +66,8 @@ bool first_impact(const QueryBodies& bodies, const BodyProperties& properties, c
   return parts.count() != 0;
 }
 
-/// Finds the hit on a body, in a new `hit`. False if there is none.
+/// Finds the hit on a body. `hit` must be newly made. `entry`: a fraction of the motion before which the shape
+/// certainly does not hit the body; it is the least fraction of an undecided hit. Returns false if there is no hit.
 bool cast_at(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Motion& motion, Fraction entry,
              QueryHit& hit) {
   const BodyProperties& properties = bodies.state.properties[slot];

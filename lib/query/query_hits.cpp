@@ -53,7 +53,7 @@ void HitCollector::add(const QueryHit& hit) {
   first_ = hit;
   count_ = 1;
   undecided_ = hit.undecided ? 1 : 0;
-  // An undecided hit rules out nothing, because it comes after decided hits that are equally near.
+  // An undecided hit does not narrow the limits, because decided hits that are equally near would come before it.
   if (hit.undecided) return;
   end_ = hit.fraction;
   distance_max_ = hit.distance;

@@ -7,8 +7,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// The order of the hits on bodies, and of the hits on the triangles of one terrain. Of two equally near hits, a
-/// decided hit comes before an undecided hit. Therefore a candidate that is certainly not nearer than a decided hit,
-/// and comes after it at equal distance, need not be tested.
+/// decided hit comes before an undecided one. Therefore a body need not be tested if it is certainly not nearer than a
+/// decided hit, and would come after that hit at equal distance.
 struct HitOrder {
   bool operator()(const QueryHit& a, const QueryHit& b) const;
 };
@@ -16,14 +16,16 @@ struct HitOrder {
 /// Collects the hits of a query, in any order.
 class HitCollector {
  public:
-  /// `end`, `distance_max`: the limits of the query, in time and in distance, m.
+  /// `all`: whether the result has all hits, not only the first. `end`, `distance_max`: the limits of the query, as a
+  /// fraction of the motion and as a distance, m.
   HitCollector(bool all, QueryHits out, Fraction end, Real distance_max);
 
   void add(const QueryHit& hit);
   /// Sorts the hits and fills the report.
   void finish(QueryReport& report);
 
-  /// The current limits in time and distance: a later or farther hit cannot be in the result.
+  /// The current limits, as a fraction of the motion and as a distance, m: a later or farther hit cannot be in the
+  /// result.
   Fraction end() const { return end_; }
   Real distance_max() const { return distance_max_; }
   /// Whether a body with this slot or a higher slot cannot be in the result, at any distance.
@@ -33,7 +35,7 @@ class HitCollector {
   bool all_;
   Fraction end_;
   Real distance_max_;
-  uint32_t first_slot_ = UINT32_MAX;  ///< slot of a decided hit at time and distance 0
+  uint32_t first_slot_ = UINT32_MAX;  ///< slot of a decided hit at fraction 0 and distance 0
   SmallestOf<QueryHit, HitOrder> kept_;
   QueryHit first_;
   uint32_t count_ = 0;

@@ -14,7 +14,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The distance to a terrain. False if it is beyond `distance_max`.
+/// As near_at(), for a terrain.
 bool near_at_terrain(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Pose& at, Real gap,
                      Real distance_max, QueryHit& hit) {
   const BodyProperties& properties = bodies.state.properties[slot];
@@ -28,7 +28,8 @@ bool near_at_terrain(const QueryBodies& bodies, uint32_t slot, const QueryShape&
   return hit.distance <= distance_max && (!asked || touched);
 }
 
-/// The nearest points of the body's parts, or an undecided result that is nearer. False if a part could not be tested.
+/// Sets `nearest` to the result for the part that is nearest to the shape; it may be undecided (capped). Returns false
+/// if a part could not be tested.
 bool nearest_part(const QueryBodies& bodies, const BodyProperties& properties, const Pose& pose,
                   const QueryShape& shape, const Pose& at, Closest& nearest) {
   const ConvexParts parts(properties, bodies.world.hooks.assets);
@@ -43,7 +44,8 @@ bool nearest_part(const QueryBodies& bodies, const BodyProperties& properties, c
   return parts.count() != 0;
 }
 
-/// The distance to a body, in a new `hit`. False if it is beyond `distance_max`.
+/// Computes the distance to a body. `hit` must be newly made. `gap`: a lower bound of the distance, m; it is the least
+/// distance of an undecided hit. Returns false if the distance exceeds `distance_max`, m.
 bool near_at(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Pose& at, Real gap,
              Real distance_max, QueryHit& hit) {
   const BodyProperties& properties = bodies.state.properties[slot];

@@ -10,10 +10,10 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The tolerance of the narrow phase is less than 2^-18 of the sizes and distances of a pair.
+/// The tolerance of the narrow phase is less than 2^-k_tolerance_power of the sizes and distances of a pair.
 constexpr int k_tolerance_power = 18;
-/// A displacement is searched in up to 2^k_pieces_power pieces. A search distance starts at 2^-k_reaches_power of its
-/// final value and is doubled. So triangles far from the hit are not tested.
+/// A displacement is searched in up to 2^k_pieces_power pieces. A search distance begins at 2^-k_reaches_power of its
+/// final value and is doubled until a hit is found. Therefore triangles far from the hit are not tested.
 constexpr int k_pieces_power = 6, k_reaches_power = 8;
 
 /// A search over the triangles around a shape, in the terrain's axes.
@@ -21,9 +21,9 @@ struct TriangleSearch {
   const AskedSurface& ground;
   const QueryShape& shape;
   TerrainPlace place = {};
-  Placed alone = {};          ///< the shape in a block of its own unit
-  int64_t ball = 0;           ///< bounding radius of a shape that rotates, else 0. This and the next members: 2^-46 m
-  int64_t radius = 0;         ///< of the ball that rounds the shape, plus a margin for errors
+  Placed alone = {};          ///< the shape alone in a block, with the shape's own unit of length
+  int64_t ball = 0;           ///< bounding radius of a shape that rotates, else 0; in 2^-46 m, as the next members
+  int64_t radius = 0;         ///< radius of the ball that rounds the shape, plus a margin for errors
   Vec64 low = {}, high = {};  ///< bounds of the shape relative to its centre
   QueryHit best = {};
   bool found = false;
@@ -42,10 +42,11 @@ struct TriangleSearch {
     alone = detent::place(shape.convex, place.rotation, shape.convex.exponent);
     low = {lowest({k_one, 0, 0}), lowest({0, k_one, 0}), lowest({0, 0, k_one})};
     high = {-lowest({-k_one, 0, 0}), -lowest({0, -k_one, 0}), -lowest({0, 0, -k_one})};
-    if (length_bound(place.centre) > int64_t{1} << 62) status = Status::out_of_range;  // later sums fit 63 bits
+    if (length_bound(place.centre) > int64_t{1} << 62) status = Status::out_of_range;  // so that later sums fit 63 bits
   }
 
-  /// The lowest coordinate of the shape along a unit axis in the terrain's axes, relative to its centre.
+  /// The lowest coordinate of the shape along `axis`, relative to the shape's centre, in units of 2^-46 m. `axis`: a
+  /// unit vector in the terrain's axes, Q30.
   int64_t lowest(const Vec32& axis) const {
     if (ball != 0) return -ball - radius;
     return raw_from_block(dot(axis, support(alone, negate(axis)).point) >> 30, shape.convex.exponent) - radius;
@@ -54,7 +55,7 @@ struct TriangleSearch {
   Vec64 from_corner(const Vec32& corner) const {
     return {place.centre.x - to_raw(corner.x), place.centre.y - to_raw(corner.y), place.centre.z - to_raw(corner.z)};
   }
-  /// Height of the shape's centre above the triangle's plane.
+  /// Height of the shape's centre above the triangle's plane, in units of 2^-46 m.
   int64_t height(const TerrainTriangle& t, const Vec32& normal) const {
     return dot(from_corner(t.corner[0]), normal).round_shift(30);
   }
@@ -64,7 +65,8 @@ struct TriangleSearch {
     return units_from_raw(round_shift(multiply(place.terrain, normal), 30));
   }
 
-  /// Whether a hit is from behind on a one-sided terrain and does not count. An undecided hit has no side and counts.
+  /// Whether a hit does not count, because it is from behind on a one-sided terrain. An undecided hit has no side, so
+  /// it counts.
   bool lets_through(const TerrainTriangle& t, const Vec32& normal, const QueryHit& hit) const {
     if (!ground.terrain.one_sided() || hit.undecided) return false;
     if (hit.normal == k_no_direction) return height(t, normal) < 0;
@@ -84,7 +86,7 @@ struct TriangleSearch {
 
   template <class Search>
   static void visit(Search& search, const Vec64& low, const Vec64& high) {
-    constexpr int64_t k_most = int64_t{1} << 61;  // coordinates of a terrain are at most half of this
+    constexpr int64_t k_most = int64_t{1} << 61;  // the coordinates of a terrain are at most half of this
     const auto held = [](int64_t value) { return value > k_most ? k_most : value < -k_most ? -k_most : value; };
     search.ground.code.visit(
         search.ground.terrain, {held(low.x), held(low.y), held(low.z)}, {held(high.x), held(high.y), held(high.z)},
@@ -147,7 +149,7 @@ struct CastSearch : TriangleSearch {
     return asked;
   }
 
-  /// Searches the displacement piece by piece, until the next piece would begin after a hit.
+  /// Searches the displacement piece by piece. Ends as soon as a hit is found that is earlier than the next piece.
   void run() {
     const Vec64 extent = {high.x - low.x, high.y - low.y, high.z - low.z};
     int power = 0;
@@ -173,7 +175,8 @@ struct NearSearch : TriangleSearch {
   NearSearch(const AskedSurface& terrain, const QueryShape& asked, const Pose& where)
       : TriangleSearch(terrain, asked, where, false), at(where) {}
 
-  /// Whether the triangle's plane or box is farther away than the nearest hit, or than `distance_max` if there is none.
+  /// Whether the triangle's plane or bounding box is farther from the shape than the nearest hit, or than
+  /// `distance_max` if there is no hit yet.
   bool rules_out(const TerrainTriangle& t, const Vec32& normal) const {
     const int64_t nearest = found ? raw_length(best.distance) : distance_max;
     const int64_t room = nearest + (nearest >> k_tolerance_power), error = height_error(t);

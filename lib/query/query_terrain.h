@@ -3,7 +3,7 @@
 #include "world/query_bodies.h"
 
 /// Queries against a body that is a terrain (a mesh or height field), triangle by triangle. They call the terrain code
-/// only through the world's feature table. So a program without terrains does not link this code.
+/// only through the world's feature table. Therefore a program without terrains does not link the terrain code.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -24,17 +24,17 @@ inline AskedSurface asked_terrain(const World& world, const BodyProperties& prop
 }
 
 /// Finds the first triangle that the shape hits on its path. A point is cast as a ray. Sets `touched` to whether a
-/// triangle is hit. If so, sets all of `hit` but the body. Errors: those of the narrow phase, for any of the nearby
-/// triangles; `touched` and `hit` are then unchanged.
+/// triangle is hit. If so, sets all of `hit` but the body. Errors: those of the narrow phase for any nearby triangle;
+/// `touched` and `hit` then do not change.
 Status cast_on_terrain(const AskedSurface& ground, const QueryShape& shape, const Motion& motion, QueryHit& hit,
                        bool& touched);
-/// The triangle nearest to the shape, which is searched up to the distance `distance_max`, m, so that a hit may also be
-/// farther. Results as for cast_on_terrain().
+/// Finds the triangle nearest to the shape. The search covers at least all triangles within `distance_max`, m; the
+/// triangle found may be farther away than this. Results as for cast_on_terrain().
 Status near_on_terrain(const AskedSurface& ground, const QueryShape& shape, const Pose& at, Real distance_max,
                        QueryHit& hit, bool& touched);
-/// The normal of a triangle on the side of a point, in world axes, and the height of the point above the plane on that
-/// side, m. For a one-sided terrain the side is always the front, so the height may be negative. Errors: as
-/// place_on_terrain().
+/// Sets `normal` to the normal of a triangle, in world axes, on the side of the triangle on which the position of `at`
+/// lies, and `height` to the height of this position above the triangle's plane, m. For a one-sided terrain, `normal`
+/// is always that of the front, so the height may be negative. Errors: as place_on_terrain().
 Status side_of_triangle(const AskedSurface& ground, uint32_t triangle, const Pose& at, Vec3<Unit>& normal,
                         Real& height);
 

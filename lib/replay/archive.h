@@ -4,16 +4,16 @@
 
 #include "state/fields.h"
 
-/// Three operations on a list of fields. A type lists its fields once, in a function `visit(archive, value)`. The class
-/// of the archive determines the operation: Writer writes the fields as canonical bytes, Reader reads the fields from
-/// canonical bytes, and Normaliser changes values to the form that Writer can write.
+/// Operations on the fields of a type. A type lists its fields once, in a function `visit(archive, value)`. The class
+/// of the archive determines the operation: Writer writes the fields as canonical bytes, Reader reads them from
+/// canonical bytes, and Normaliser checks the values and changes them to a form that Writer can write.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// The base class of all archives. The field lists are compiled once, for this type, which keeps the code small.
 class Archive {
  public:
-  /// The operations of an archive. Where a pointer is null, the operation does nothing.
+  /// The operations of a class of archives. If a pointer is null, this operation does nothing.
   struct Operations {
     void (*bits)(Archive& archive, const char* name, uint64_t& value, uint32_t byte_count);
     void (*require)(Archive& archive, const char* name, bool condition, Status otherwise);
@@ -24,14 +24,14 @@ class Archive {
   void bits(const char* name, uint64_t& value, uint32_t byte_count) {
     if (operations_.bits != nullptr) operations_.bits(*this, name, value, byte_count);
   }
-  /// States a condition that the field just visited must satisfy. If the condition is false, Reader records the field
-  /// as failed, and Normaliser records the status `otherwise`. Writer ignores the condition.
+  /// States a condition that the field just visited must satisfy. If the condition is false for the first time, Reader
+  /// records the field as failed, and Normaliser records the status `otherwise`. Writer ignores the condition.
   void require(const char* name, bool condition, Status otherwise) {
     if (operations_.require != nullptr) operations_.require(*this, name, condition, otherwise);
   }
   bool normalises() const { return operations_.normalises; }
 
-  WordKind kind = WordKind::unsigned_integer;  ///< kind of the next field, for programs that display fields
+  WordKind kind = WordKind::unsigned_integer;  ///< number format of the next field, for programs that display fields
 
  protected:
   explicit Archive(const Operations& operations) : operations_(operations) {}
@@ -47,7 +47,7 @@ class Writer final : public Archive {
   uint8_t* bytes;
   uint32_t capacity;
   uint32_t count = 0;
-  bool full = false;  ///< a field did not fit: `bytes` holds only a part
+  bool full = false;  ///< a field did not fit: `bytes` holds only the fields before it
 
  private:
   static void write(Archive& archive, const char* name, uint64_t& value, uint32_t byte_count);
@@ -61,10 +61,10 @@ class Reader final : public Archive {
 
   const uint8_t* bytes;
   uint32_t count;
-  uint32_t at;
+  uint32_t at;                   ///< index of the next byte to read
   const char* failed = nullptr;  ///< the first field that is missing or wrong
   uint32_t failed_at = 0;        ///< the index of the first byte of this field
-  uint32_t field_at = 0;
+  uint32_t field_at = 0;         ///< the index of the first byte of the last field visited
 
  private:
   static void read(Archive& archive, const char* name, uint64_t& value, uint32_t byte_count);
@@ -76,7 +76,7 @@ class Normaliser final : public Archive {
  public:
   Normaliser() : Archive(k_operations) {}
 
-  Status status = Status::ok;  ///< the reason why the first bad field cannot be written
+  Status status = Status::ok;  ///< why the first field that is out of range cannot be written; ok if there is none
 
  private:
   static void check(Archive& archive, const char* name, bool condition, Status otherwise);
@@ -88,8 +88,8 @@ void visit_word(Archive& archive, const char* name, uint32_t& value);
 void visit_flag(Archive& archive, const char* name, bool& value);
 /// Visits a number as one byte. The number must be from `first` to `last`.
 void visit_byte(Archive& archive, const char* name, uint32_t& value, uint32_t first, uint32_t last);
-/// Visits a signed integer in two's complement, as bits of the current Archive::kind. Afterwards the kind is
-/// unsigned_integer again.
+/// Visits a signed integer in two's complement, as a field of the kind that Archive::kind has at the call. Afterwards
+/// Archive::kind is unsigned_integer.
 void visit_bits(Archive& archive, const char* name, int32_t& value);
 void visit_bits(Archive& archive, const char* name, int64_t& value);
 
@@ -107,9 +107,9 @@ void visit_number(Archive& archive, const char* name, Fixed<Int, frac>& value) {
   archive.kind = WordsOf<Fixed<Int, frac>>::k_kind;
   visit_bits(archive, name, value.raw);
 }
-/// Visits a float as its IEEE bits. The code uses only integer arithmetic, so the caller's floating-point modes do not
-/// matter. Negative zero, infinities and NaN are rejected, because machines differ in the sign of zeros and the bits of
-/// NaN. Normaliser does not reject negative zero, but replaces it by zero.
+/// Visits a floating-point number as its IEEE bits. The code uses only integer arithmetic, so the caller's
+/// floating-point modes do not matter. Negative zero, infinities and NaN are rejected (Archive::require()); machines
+/// differ in the sign of zeros and the bits of NaN. Normaliser replaces negative zero by zero instead of rejecting it.
 void visit_number(Archive& archive, const char* name, float& value);
 void visit_number(Archive& archive, const char* name, double& value);
 #if DETENT_FIXED

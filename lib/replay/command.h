@@ -5,13 +5,14 @@
 
 #include "replay/archive.h"
 
-/// Every mutating call as a value, a command. Each command lists its fields once (`visit`), for writing and for
-/// reading, and has a function that makes the call (`apply`).
+/// Commands: every call that changes a world, as a value. Each command lists its fields once (`visit`), for writing and
+/// for reading, and has a function that makes the call (`apply`). In a recording, a call is a *record*: a tag and the
+/// fields of the command.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The first byte of a record. The values are stored in files, so a value that is no longer used is never given to
-/// another tag.
+/// The first byte of a record: which call it is. The values are stored in files, so a value that is no longer used is
+/// never given to another tag.
 enum class RecordTag : uint8_t {
   create_body = 1,
   destroy_body = 2,
@@ -25,8 +26,8 @@ enum class RecordTag : uint8_t {
   set_gravity = 10,
   set_user_data = 11,
   bind_asset = 12,
-  tick = 13,           ///< a step
-  tick_digested = 14,  ///< a step, and the digest of the state after it
+  tick = 13,           ///< the call is step()
+  tick_digested = 14,  ///< as `tick`; the record also has the digest of the state after the step
   wake_body = 15,
   sleep_body = 16,
   set_type = 32,
@@ -45,14 +46,14 @@ enum class RecordTag : uint8_t {
   move_kinematic = 45,
   set_sensor = 46,
   set_filter = 48,
-  query = 49,  ///< the length of the rest, a query, and the digest of its answer (query_command.h)
+  query = 49,  ///< the record has the length of its rest, a query, and the digest of the answer (query_command.h)
   set_inertia = 50,
   create_joint = 64,
   destroy_joint = 65,
   set_joint = 66,
 };
 
-/// The enumerator's name, which is also the name of the call; "" if there is none. Never null.
+/// Returns the enumerator's name, which for a call is also the call's name; "" for an unknown tag. Never null.
 const char* record_name(RecordTag tag);
 
 struct CreateBody {
@@ -60,7 +61,7 @@ struct CreateBody {
   BodyId id = {};  ///< the id that the call returned
   BodyDef def = {};
 };
-/// The calls whose only argument is a body.
+/// A call whose only argument is a body.
 template <RecordTag tag, Status (*call)(World&, BodyId)>
 struct OnBody {
   static constexpr RecordTag k_tag = tag;
@@ -69,7 +70,7 @@ struct OnBody {
 using DestroyBody = OnBody<RecordTag::destroy_body, destroy_body>;
 using WakeBody = OnBody<RecordTag::wake_body, wake_body>;
 using SleepBody = OnBody<RecordTag::sleep_body, sleep_body>;
-/// The calls with a body and a pose.
+/// A call with a body and a pose.
 template <RecordTag tag, Status (*call)(World&, BodyId, const Position&, const Quat&)>
 struct ToPose {
   static constexpr RecordTag k_tag = tag;
@@ -85,7 +86,7 @@ struct SetVelocity {
   Vec3<Real> linear_velocity = {};
   Vec3<Real> angular_velocity = {};
 };
-/// The calls that apply a force or impulse at a place: a vector from the centre of mass, or a point of the world.
+/// A call that applies a force or impulse at a place: a vector from the centre of mass, or a point of the world.
 template <RecordTag tag, class Place, Status (*call)(World&, BodyId, const Vec3<Scaled>&, const Place&)>
 struct PushAt {
   static constexpr RecordTag k_tag = tag;
@@ -97,7 +98,7 @@ using ApplyImpulseAt = PushAt<RecordTag::apply_impulse_at, Vec3<Real>, apply_imp
 using ApplyForceAt = PushAt<RecordTag::apply_force_at, Vec3<Real>, apply_force_at>;
 using ApplyImpulseAtPoint = PushAt<RecordTag::apply_impulse_at_point, Position, apply_impulse_at_point>;
 using ApplyForceAtPoint = PushAt<RecordTag::apply_force_at_point, Position, apply_force_at_point>;
-/// The four calls that apply one vector (force, torque, impulse, angular impulse) to a body.
+/// A call that applies one vector (a force, torque, impulse or angular impulse) to a body.
 template <RecordTag tag, Status (*call)(World&, BodyId, const Vec3<Scaled>&)>
 struct Push {
   static constexpr RecordTag k_tag = tag;
@@ -112,7 +113,7 @@ struct SetGravity {
   static constexpr RecordTag k_tag = RecordTag::set_gravity;
   Vec3<Real> gravity = {};
 };
-/// The calls that set one value of a body.
+/// A call that sets one value of a body.
 template <RecordTag tag, class Value, auto call>
 struct SetValue {
   static constexpr RecordTag k_tag = tag;
@@ -394,7 +395,8 @@ inline Status apply(World& world, Explode& command) { return explode(world, comm
 inline Status apply(World& world, SetFilter& command) { return set_filter(world, command.id, command.filter); }
 inline Status apply(World& world, BindAsset& command) { return bind_asset(world, command.index); }
 
-/// The functions that read, write and repeat one kind of call. `command` points to a command with this tag.
+/// The functions for one kind of call: `visit` reads or writes a command, `apply` makes its call. `command` points to a
+/// command with this tag.
 struct CommandCode {
   RecordTag tag;
   void (*visit)(Archive& archive, void* command);
@@ -405,11 +407,11 @@ inline constexpr CommandCode k_command_code = {
     Command::k_tag, [](Archive& archive, void* command) { visit(archive, *static_cast<Command*>(command)); },
     [](World& world, void* command) { return apply(world, *static_cast<Command*>(command)); }};
 
-/// The size of the largest command.
+/// The size of the largest command, bytes.
 inline constexpr uint32_t k_command_bytes_max = sizeof(SetJoint) > sizeof(CreateBody) ? sizeof(SetJoint)
                                                                                       : sizeof(CreateBody);
 
-/// The functions of the call with this tag; null if no call has the tag.
+/// Returns the functions for the call with this tag; null if no call has this tag.
 const CommandCode* find_command(RecordTag tag);
 
 }  // namespace DETENT_NAMESPACE

@@ -4,7 +4,7 @@
 #include "base/crc.h"
 #include "replay/archive.h"
 
-/// The recording's frame: header, chunks, end (docs/recording.md).
+/// The frame of a recording: a header, chunks, and a chunk that ends the recording (docs/recording.md).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -13,12 +13,12 @@ constexpr uint32_t k_magic_bytes = 8;
 /// so that a transfer in text mode damages them.
 inline constexpr uint8_t k_recording_magic[k_magic_bytes] = {0x89, 'D', 'T', 'R', '\r', '\n', 0x1a, '\n'};
 
-constexpr uint32_t k_version_bytes = 4;  ///< the format version; in every version it follows the magic
-constexpr uint32_t k_info_bytes = 60;    ///< the header's fields
+constexpr uint32_t k_version_bytes = 4;  ///< size of the format version; in every version it follows the magic
+constexpr uint32_t k_info_bytes = 60;    ///< size of the header's fields (RecordingInfo)
 constexpr uint32_t k_checksum_bytes = 4;
 constexpr uint32_t k_header_bytes = k_magic_bytes + k_info_bytes + k_checksum_bytes;
 
-/// Offsets, bytes, of the header fields that a reader can refuse although the checksum is correct.
+/// Offsets, bytes, of those header fields that can make a reader refuse a recording although the checksum is correct.
 constexpr uint32_t k_simulation_at = 12;
 constexpr uint32_t k_config_at = 16;
 constexpr uint32_t k_capacity_at = 20;
@@ -31,21 +31,21 @@ static_assert(k_chunk_header_bytes + k_chunk_payload_bytes_max + k_checksum_byte
 /// The type of a chunk. The values are stored in files, so a value that is no longer used is never given to another
 /// type.
 enum class ChunkType : uint32_t {
-  seed = 1,   ///< a piece of the first state's snapshot; the pieces are in order
-  calls = 2,  ///< whole records
-  end = 3,
+  seed = 1,           ///< a piece of the first state's snapshot; the pieces are in order
+  calls = 2,          ///< whole records (command.h)
+  end = 3,            ///< the last chunk (Ending)
   keyframe = 0x8001,  ///< a piece of a later state's digest and snapshot; the pieces are in order
-  stages = 0x8002,    ///< a piece of a tick's trace at TraceLevel::stages (trace_stream.h), before the tick's record
-  state = 0x8003,     ///< as `stages`, at TraceLevel::full
+  stages = 0x8002,    ///< a piece of a tick's trace at TraceLevel::stages (trace_stream.h); precedes the tick's record
+  state = 0x8003,     ///< as `stages`, but at TraceLevel::full
 };
-/// A reader skips a chunk of an unknown type that has this bit, and refuses a chunk of an unknown type without this
-/// bit.
+/// A bit of the chunk type. A reader skips a chunk of an unknown type with this bit, and refuses a chunk of an unknown
+/// type without it.
 constexpr uint32_t k_chunk_optional = 0x8000;
 
 struct ChunkHeader {
   uint64_t type = 0;
   uint64_t payload_count = 0;
-  uint64_t sequence = 0;  ///< 0 for the first chunk
+  uint64_t sequence = 0;  ///< number of the chunk; 0 for the first
   uint64_t tick = 0;      ///< number of ticks completed before the contents of the chunk
 };
 
@@ -56,6 +56,7 @@ inline void visit(Archive& archive, ChunkHeader& header) {
   archive.bits("chunk tick", header.tick, 8);
 }
 
+/// The payload of the chunk that ends a recording.
 struct Ending {
   uint64_t ticks = 0;   ///< number of ticks in the recording
   uint64_t digest = 0;  ///< of the final state
@@ -96,12 +97,12 @@ inline void visit(Archive& archive, RecordingInfo& info) {
   visit_word(archive, "keyframe interval", info.keyframe_interval);
 }
 
-constexpr uint32_t k_keyframe_digest_bytes = 8;  ///< the digest before the snapshot of a keyframe
+constexpr uint32_t k_keyframe_digest_bytes = 8;  ///< size of the digest that precedes the snapshot in a keyframe
 
-/// Whether an action that is done every `interval` ticks is due after this tick; false for interval 0.
+/// Whether an action that is done every `interval` ticks is due after `tick` completed ticks; false for interval 0.
 constexpr bool is_due(uint32_t interval, uint64_t tick) { return interval != 0 && tick % interval == 0; }
 
-/// read_checksum() and write_checksum() read and write the CRC-32 at `bytes`.
+/// read_checksum() reads the CRC-32 at `bytes`; write_checksum() writes it.
 inline uint32_t read_checksum(const uint8_t* bytes) {
   uint32_t checksum = 0;
   Reader reader{bytes, k_checksum_bytes};
@@ -113,8 +114,8 @@ inline void write_checksum(uint8_t* bytes, uint32_t checksum) {
   visit_word(writer, "checksum", checksum);
 }
 
-/// Adds the header and the checksum to a chunk's payload, which is in `buffer` after the space for the header. Returns
-/// the length of the chunk, bytes.
+/// Makes a chunk in `buffer`, which already holds the payload after the space for the header: writes the header before
+/// it and the checksum after it. Returns the length of the chunk, bytes.
 inline uint32_t make_chunk(uint8_t* buffer, ChunkHeader header) {
   Writer writer{buffer, k_chunk_header_bytes};
   visit(writer, header);
@@ -123,7 +124,7 @@ inline uint32_t make_chunk(uint8_t* buffer, ChunkHeader header) {
   return count + k_checksum_bytes;
 }
 
-/// Makes the end chunk. Returns its length, bytes.
+/// Makes the chunk that ends a recording in `buffer`. Returns its length, bytes.
 inline uint32_t make_end(uint8_t* buffer, Ending ending, uint32_t sequence, uint64_t tick) {
   Writer writer{buffer + k_chunk_header_bytes, k_chunk_payload_bytes_max};
   visit(writer, ending);

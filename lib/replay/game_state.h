@@ -3,7 +3,7 @@
 
 #include "base/digest.h"
 
-/// Operations on a game's own bytes for rollback sessions and the sync test.
+/// Operations on a game's own bytes (GameState), for rollback sessions and sync_test().
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

@@ -166,8 +166,8 @@ Status Player::begin_keyframe(uint64_t& digest) {
   return Status::ok;
 }
 
-/// Skips a keyframe, and compares the recorded digest with the digest of the world, if there is one. Does not check
-/// that the keyframe's snapshot has this digest; go_to() refuses a keyframe whose snapshot does not have it.
+/// Skips a keyframe. If `world` is not null, compares the keyframe's digest with that of the world. Does not check that
+/// the keyframe's snapshot has this digest; go_to() checks this when it loads a keyframe.
 Status Player::pass_keyframe(const World* world) {
   uint64_t recorded = 0;
   if (begin_keyframe(recorded) != Status::ok) return error_.status;
@@ -250,7 +250,7 @@ Status Player::call(World* world, uint32_t tag, Reader& reader, uint64_t offset)
   alignas(8) uint8_t command[k_command_bytes_max] = {};
   code->visit(reader, command);
   if (reader.failed != nullptr || world == nullptr) return Status::ok;
-  BodyId recorded, given;  // joint ids, if the call creates or uses a joint
+  BodyId recorded, given;  // the command's first bytes: the id of a body or joint, or a value that no call changes
   memcpy(&recorded, command, sizeof recorded);
   const Status status = code->apply(*world, command);
   memcpy(&given, command, sizeof given);
@@ -260,8 +260,8 @@ Status Player::call(World* world, uint32_t tag, Reader& reader, uint64_t offset)
   return Status::ok;
 }
 
-/// If the error is `truncated` or `corrupt`, marks the recording as cut off: the valid part of the recording ends
-/// before the chunk that is damaged or incomplete. Returns the error.
+/// If the error is `truncated` or `corrupt`, marks the recording as cut off. Its intact part then ends before the chunk
+/// that is damaged or incomplete. Returns the error.
 Status Player::cut() {
   if (error_.status == Status::truncated || error_.status == Status::corrupt) state_ = State::cut;
   return error_.status;

@@ -4,7 +4,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Counts the bytes of the visited fields.
+/// An archive that only counts the bytes of the visited fields.
 class Counter final : public Archive {
  public:
   Counter() : Archive(k_operations) {}

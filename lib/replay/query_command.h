@@ -4,13 +4,14 @@
 
 #include "replay/command.h"
 
-/// Every query of query.h as a value, like the calls of command.h. After the tag, the record of a query begins with the
-/// length of the rest, so that a reader that does not repeat queries can skip the record.
+/// Every query of query.h as a value, like the commands of command.h. The record of a query has its tag, the length of
+/// the rest, its kind, its fields and the digest of its answer. The length allows a reader that does not repeat queries
+/// to skip the record.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The first byte after the length. The values are stored in files, so a value that is no longer used is never given to
-/// another kind.
+/// The byte after the length in the record of a query: which query it is. The values are stored in files, so a value
+/// that is no longer used is never given to another kind.
 enum class QueryKind : uint8_t {
   ray = 1,
   cast = 2,
@@ -19,6 +20,7 @@ enum class QueryKind : uint8_t {
   closest = 5,
 };
 
+/// A query and the digest of its answer.
 template <QueryKind kind, class Asked, Status (*call)(const World&, const Asked&, QueryHits, QueryReport&)>
 struct QueryCommand {
   using Query = Asked;
@@ -40,7 +42,7 @@ inline void visit(Archive& archive, QueryFilter& filter) {
   visit(archive, filter.ignore);
 }
 
-/// Visits the last fields of every query.
+/// Visits the fields with which every query ends.
 template <class Query>
 void visit_choice_of_bodies(Archive& archive, Query& query) {
   visit(archive, query.filter);
@@ -79,12 +81,12 @@ inline void visit(Archive& archive, ClosestQuery& query) {
   visit_choice_of_bodies(archive, query);
 }
 
-/// The functions that read, write and repeat one kind of query.
+/// The functions for one kind of query: `visit` reads or writes it, `ask` runs it.
 struct QueryCode {
   QueryKind kind;
   /// Visits the fields after the kind. `command` points to a command of this kind.
   void (*visit)(Archive& archive, void* command);
-  /// Runs the query and sets the command's digest.
+  /// Runs the query, and sets the digest in `command` to that of the new answer.
   Status (*ask)(const World& world, void* command, QueryHits hits, QueryReport& report);
   uint32_t digest_at;  ///< offset of the digest in the command, bytes
 };
@@ -102,23 +104,24 @@ inline constexpr QueryCode k_query_code = {Command::k_kind,
                                            },
                                            __builtin_offsetof(Command, digest)};
 
-/// The size of the largest query command.
+/// The size of the largest query command, bytes.
 inline constexpr uint32_t k_query_command_bytes = sizeof(CastCommand);
-/// The functions of this kind of query; null if the kind is unknown.
+/// Returns the functions for this kind of query; null if the kind is unknown.
 const QueryCode* find_query(uint64_t kind);
 
-/// Visits the length of the rest of the record, the kind, and the fields of the query.
+/// Visits the record of a query after its tag: the length of the rest, the kind, the fields and the digest.
 void visit_query(Archive& archive, const QueryCode& code, void* command);
 template <QueryKind kind, class Query, Status (*call)(const World&, const Query&, QueryHits, QueryReport&)>
 void visit(Archive& archive, QueryCommand<kind, Query, call>& command) {
   visit_query(archive, k_query_code<QueryCommand<kind, Query, call>>, &command);
 }
 
-/// The entry point of the code that repeats queries, for a player. The code is linked only if a program uses this entry
-/// point.
+/// The table through which a player repeats queries. The code for this is linked only if a program uses the table
+/// (k_query_repeater).
 struct QueryRepeater {
-  /// Reads a query, beginning with its kind, and runs the query. Sets `recorded` and `replayed` to the digests of the
-  /// recorded and the new answer. If the query cannot be read, `reader` holds the error.
+  /// Reads a query, beginning with its kind, and runs it. Sets `recorded` and `replayed` to the digests of the recorded
+  /// and of the new answer. Returns the status of the query. If the query cannot be read, returns ok, and
+  /// Reader::failed is set.
   Status (*repeat)(const World& world, Reader& reader, uint64_t& recorded, uint64_t& replayed);
 };
 

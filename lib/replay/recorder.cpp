@@ -12,11 +12,12 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The CommandCode of a record that is not a call: a tick or a query. `apply` is null.
+/// The functions for a record of a tick or a query. `apply` is null: the recorder makes the step or the query itself.
 template <class Record>
 constexpr CommandCode k_record_code = {
     Record::k_tag, [](Archive& archive, void* record) { visit(archive, *static_cast<Record*>(record)); }, nullptr};
 
+/// A query as a record.
 struct LoggedQuery {
   static constexpr RecordTag k_tag = RecordTag::query;
   const QueryCode& code;
@@ -26,8 +27,8 @@ void visit(Archive& archive, LoggedQuery& query) { visit_query(archive, query.co
 
 }  // namespace
 
-// A record has a tag and at most as many further bytes as its command has in memory; the record of a query also has a
-// length and a kind. Therefore every record fits an empty chunk.
+// A record consists of a tag and at most as many further bytes as its command has in memory. The record of a query also
+// has a length and a kind. Therefore every record fits the payload of one chunk.
 static_assert(sizeof(CreateBody) + 1 <= k_chunk_payload_bytes_max);
 static_assert(sizeof(SetJoint) + 1 <= k_chunk_payload_bytes_max);
 static_assert(sizeof(CastCommand) + 4 <= k_chunk_payload_bytes_max);
@@ -87,8 +88,8 @@ void Recorder::write_header() {
   write(buffer_, k_header_bytes);
 }
 
-/// Writes the world's snapshot in chunks. `payload_count`: number of bytes that the payload of the first chunk already
-/// has in the buffer.
+/// Writes the world's snapshot in chunks of this type. `payload_count`: number of bytes that are already in the payload
+/// of the first chunk.
 void Recorder::write_state(uint32_t type, uint32_t payload_count) {
   const uint32_t state_bytes = snapshot_bytes(get_info(world_).capacity);
   for (uint32_t offset = 0; offset < state_bytes && status_ == Status::ok; payload_count = 0) {
@@ -376,8 +377,8 @@ StepReport Recorder::step() {
   const bool digested = is_due(def_.digest_interval, report.tick);
   const bool keyframe = is_due(def_.keyframe_interval, report.tick);
   TickDigested command{digested || keyframe ? digest(world_) : 0};
-  // The record is logged before tick_ increases: a chunk that starts with this record has the number of ticks that were
-  // completed before this tick.
+  // The record is logged before tick_ increases. So the header of a chunk that starts with this record has the number
+  // of ticks that were completed before this tick.
   if (digested) {
     log(k_record_code<TickDigested>, &command);
   } else {

@@ -15,7 +15,7 @@ Status RollbackSession::begin(const World& world, const RollbackDef& def, TickMa
   if (maker.make == nullptr || (def.local >> def.players) != 0 || !is_game_state(game, def.game_bytes))
     return Status::bad_argument;
   if (memory == nullptr || memory_bytes < layout.bytes) return Status::buffer_too_small;
-  // begin() also checks the alignment of `memory`.
+  // SnapshotRing::begin() also checks the alignment of `memory`, for sparse sessions too.
   if (const Status status = states_.begin(memory, memory_bytes, info.capacity, def.window); status != Status::ok)
     return status;
 #if DETENT_SPARSE
@@ -34,8 +34,8 @@ Status RollbackSession::begin(const World& world, const RollbackDef& def, TickMa
   start_ = tick_ = info.tick;
   wrong_ = UINT64_MAX;
   desync_ = {};
-  // A local player's inputs are zero in the ticks before its first delayed input takes effect. The other machines
-  // receive these zero inputs like all other inputs.
+  // With a delay, a local player's inputs are zero in the first ticks, until its first input takes effect. The other
+  // machines receive these zero inputs like all other inputs.
   for (uint32_t player = 0; player < def.players; ++player) {
     next_[player] = start_;
     if (is_remote(player)) continue;
@@ -53,16 +53,16 @@ uint64_t& RollbackSession::stamp_of(uint32_t player, uint64_t tick) const {
   return stamps_[place(tick) * def_.players + player];
 }
 
-/// The first tick whose inputs another machine may still need. It is two windows before the present tick or before the
-/// first tick with an unknown input, whichever is earlier. The latter can be after the present tick: with a delay, or
-/// without local players, inputs may be known for ticks that are not simulated yet.
+/// Returns the first tick whose inputs another machine may still need: two windows before the present tick or before
+/// known_tick(), whichever is earlier, but not before the session's start. known_tick() can be after the present tick:
+/// with a delay, or without local players, inputs may be known for ticks that are not simulated yet.
 uint64_t RollbackSession::oldest() const {
   const uint64_t known = known_tick(), back = 2 * uint64_t{def_.window};
   const uint64_t now = known < tick_ ? known : tick_;
   return now - start_ > back ? now - back : start_;
 }
 
-/// The first tick for which an input of a player is unknown.
+/// Returns the first tick for which the input of any player is unknown.
 uint64_t RollbackSession::known_tick() const {
   uint64_t first = next_[0];
   for (uint32_t player = 1; player < def_.players; ++player) {
@@ -120,8 +120,8 @@ bool RollbackSession::lacks_local_input() const {
   return false;
 }
 
-/// Predicts the unknown inputs of a tick: each is the input of the same player in the tick before. Returns a bit for
-/// each player whose input is predicted.
+/// Predicts the unknown inputs of a tick: the prediction is the input of the same player in the tick before (zero in
+/// the first tick). Returns a set of bits: bit p is set if the input of player p is predicted.
 uint32_t RollbackSession::predict(uint64_t tick) {
   uint32_t predicted = 0;
   for (uint32_t player = 0; player < def_.players; ++player) {
@@ -136,7 +136,8 @@ uint32_t RollbackSession::predict(uint64_t tick) {
   return predicted;
 }
 
-/// Keeps the state of the world and of the game at the start of a tick.
+/// Keeps the state of the world and of the game at the start of `tick`. Without sparse rollback, also takes its
+/// checksum.
 Status RollbackSession::keep(const World& world, uint64_t tick) {
 #if DETENT_SPARSE
   const Status status = sparse_ != nullptr ? sparse_->keep(world) : states_.keep(world);
@@ -157,8 +158,9 @@ void RollbackSession::take_checksum(const World& world, const GameState& game, u
     own_checksum(tick) = {tick + 1, digest_fold(digest_of(world, game)), 0};
 }
 
-/// With sparse rollback, computes the checksums of the ticks that no input can change any more, from the kept states,
-/// which are unpacked. Without sparse rollback it does nothing, because keep() computes the checksum of each state.
+/// With sparse rollback, takes the checksums of those states that no input can change any more; it reads them from the
+/// kept states, which are not packed. Without sparse rollback it does nothing, because keep() takes the checksum of
+/// each state.
 void RollbackSession::take_confirmed_checksums() {
 #if DETENT_SPARSE
   if (sparse_ == nullptr) return;
@@ -230,7 +232,7 @@ Status RollbackSession::advance(World& world, RollbackReport& report) {
   if (tick_ >= known && tick_ - known >= def_.window) return Status::waiting;
   RollbackReport made;
   if (const Status status = go_back(world, made); status != Status::ok) return status;
-  take_confirmed_checksums();  // of the ticks whose kept states the new tick overwrites
+  take_confirmed_checksums();  // before the new tick overwrites the oldest kept state
   if (const Status status = make_tick(world, tick_, false); status != Status::ok) return status;
   made.tick = ++tick_;
   take_confirmed_checksums();

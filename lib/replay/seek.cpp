@@ -5,7 +5,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Moves to `place`, where the next chunk is read.
+/// Moves the source to `place`, so that the next chunk is read from there.
 Status Player::seek(const Place& place) {
   if (source_.seek(source_.context, place.offset) != Status::ok) return fail(Status::sink_failed, place.offset, "seek");
   offset_ = place.offset;
@@ -15,11 +15,12 @@ Status Player::seek(const Place& place) {
   return Status::ok;
 }
 
-/// Searches for the last keyframe at or before the tick, from `place` on. If there is one, sets `place` to it and
-/// `found` to true. If the search reaches the end chunk, sets `beyond` to whether the recording ends before the tick;
-/// otherwise leaves `beyond` as it is. The search reads only chunk headers: the player tests a checksum when it reads
-/// the chunk later. The search ends at a header that cannot be valid, or at the end of the bytes. A keyframe counts
-/// only if a chunk of another type follows, which shows that the keyframe is complete.
+/// Searches for the last keyframe at or before `tick`, from `place` on. If there is one, sets `place` to it and `found`
+/// to true. If the search reaches the chunk that ends the recording, sets `beyond` to whether the recording ends before
+/// `tick`; otherwise leaves `beyond` as it is. The search reads only the headers of chunks; the player tests the
+/// checksum of a chunk when it reads the chunk later. The search ends at a header that cannot be valid, or at the end
+/// of the bytes. A keyframe counts only if a chunk of another type follows it, which shows that the keyframe is
+/// complete.
 Status Player::find_keyframe(Place& place, uint64_t tick, bool& found, bool& beyond) {
   Place at = place, candidate = {};
   bool within = false;
@@ -64,7 +65,8 @@ Status Player::load_keyframe(World& world, const Place& place) {
   return compare(world, recorded, offset, "keyframe digest");
 }
 
-/// Loads the nearest state at or before the tick, without playing a tick.
+/// Sets the world to the latest state at or before `tick` that can be reached without playing a tick: a keyframe, the
+/// seed or the current state.
 Status Player::approach(World& world, uint64_t tick) {
   const bool here = state_ == State::playing && tick >= tick_ && get_info(world).tick == tick_;
   if (source_.seek == nullptr) {

@@ -22,9 +22,9 @@ bool are_same(Span<const T> a, Span<const T> b, uint32_t index) {
 
 uint32_t greater_count(uint32_t a, uint32_t b) { return a < b ? b : a; }
 
-/// Merges the elements of `from` that `takes` accepts into the `count` sorted elements at the front of `to`. `more`:
-/// the number of elements that `takes` accepts. `precedes(a, b)`: the order. `move(i, k)`: moves element i of `to` to
-/// place k. `put(i, k)`: copies element i of `from` to place k of `to`.
+/// Merges the elements of `from` that `takes` accepts into the `count` sorted elements at the front of `to`; `from` is
+/// sorted, too. `more`: the number of elements that `takes` accepts. `precedes(a, b)`: whether a comes before b in the
+/// order. `move(i, k)`: moves element i of `to` to place k. `put(i, k)`: copies element i of `from` to place k of `to`.
 template <class T, class From, class Takes, class Precedes, class Move, class Put>
 void merge_back(Span<T> to, uint32_t count, Span<From> from, uint32_t more, const Takes& takes,
                 const Precedes& precedes, const Move& move, const Put& put) {
@@ -40,7 +40,7 @@ void merge_back(Span<T> to, uint32_t count, Span<From> from, uint32_t more, cons
   }
 }
 
-/// The exponent of a body's unit for joints, as a number other than 0.
+/// Returns the exponent of a body's unit for joints as a number other than 0.
 uint32_t unit_number(const JointBody& body) { return static_cast<uint32_t>(body.exponent + 1024); }
 
 template <class T, class Takes>
@@ -51,7 +51,7 @@ uint32_t count_taken(Span<T> from, const Takes& takes) {
 }
 
 /// Merges the recorded events that `takes` accepts into the caller's buffer. `count`: the number of events in the
-/// buffer, which the function updates. Returns false if the events do not fit.
+/// buffer; the function updates it. Returns false if the buffer has no room for the events.
 template <class Event, class Buffer, class Takes, class Precedes>
 bool merge_recorded(const Buffer& buffer, uint32_t& count, Span<Event> recorded, const Takes& takes,
                     const Precedes& precedes) {
@@ -115,7 +115,7 @@ void SparseTick::load(const State& from, const StateView<uint8_t>& block) {
 }
 
 void SparseTick::reset(const StateView<uint8_t>& block) const {
-  // The counts tell copy_used() which elements of the block may be other than zero.
+  // From these counts copy_used() knows which elements of the block may be other than zero.
   block.world.slots_used = used;
   block.world.joints_used = greater_count(before.world.joints_used, now.world.joints_used);
   block.world.contact_count =
@@ -139,7 +139,8 @@ bool SparseTick::has_same_units(Span<const JointBody> bodies) const {
   for (const JointBody& body : bodies) {
     if (body.mobile != 0) continue;
     const uint32_t before_unit = units[body.slot];
-    // A body had no joints before if before_unit is 0. If it is fixed, its first joint affects no other joint.
+    // If before_unit is 0, the body had no joints in the run from the recorded state. The first joint of a fixed body
+    // affects no other joint.
     same = same && (before_unit == unit_number(body) || (before_unit == 0 && !is_kinematic(body.slot)));
     kinematic += is_kinematic(body.slot) ? 1u : 0u;
   }
@@ -198,7 +199,7 @@ bool SparseTick::merge(const StateView<uint8_t>& block) {
         if (has_manifolds) block.manifolds[k] = after.manifolds[i];
       });
 
-  // Removes the pairs of a visible sensor and a visible body if neither of them is in `inside` (SparseTick).
+  // The run also finds pairs of a sensor and a body that are both visible but not inside. Removes these pairs.
   uint32_t sensed = 0;
   for (uint32_t i = 0; i < block.world.sensed_count; ++i) {
     const SensedState pair = block.sensed[i];
@@ -242,7 +243,7 @@ bool SparseTick::merge_events(const WorldHooks& hooks, StepReport& report) const
   const auto is_before = [](uint32_t a, uint32_t b, uint32_t other_a, uint32_t other_b) {
     return a != other_a ? a < other_a : b < other_b;
   };
-  // Removes the events of a visible sensor and a visible body if neither of them is in `inside` (SparseTick).
+  // The run also raises events of a sensor and a body that are both visible but not inside. Removes these events.
   const Span<SensorEvent> sensed = room_of(hooks.sensor_events);
   uint32_t kept = 0;
   for (uint32_t i = 0; i < events.sensor; ++i) {

@@ -12,7 +12,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Whether two worlds have the same settings.
+/// Whether two worlds have the same settings and tick: all of WorldState but counts, `free_word` and `idle`.
 bool has_same_settings(const WorldState& a, const WorldState& b) {
   WorldState other = b;
   other.body_count = a.body_count;
@@ -28,8 +28,9 @@ bool has_same_settings(const WorldState& a, const WorldState& b) {
   return have_same_bytes(a, other);
 }
 
-/// Visits the elements of two sorted lists, in order. Calls visit(i, k) with the indices of an element in both lists.
-/// An index is the count of its list if that list has no element with this key.
+/// Visits the elements of two sorted lists, in the order of their keys. For each key, calls visit(i, k) with the index
+/// of its element in each list; if a list has no element with this key, its index is its count. `compare(i, k)`: the
+/// order of two elements, as a negative number, 0 or a positive number.
 template <class Before, class Visit>
 void walk_both(uint32_t count_a, uint32_t count_b, const Before& compare, const Visit& visit) {
   for (uint32_t i = 0, k = 0; i < count_a || k < count_b;) {
@@ -132,7 +133,7 @@ void SparseTick::add(uint32_t slot) {
   if (is_different || record.movers.has(slot)) list[count++] = slot;
 }
 
-/// Whether one of the bodies in `list`, from index `from` to before `end`, reaches the body `slot`.
+/// Whether one of the bodies in `list` with an index in [from, end) reaches the body `slot`.
 bool SparseTick::meets(uint32_t slot, uint32_t from, uint32_t end) const {
   const bool acts = can_act(slot);
   for (uint32_t i = from; i < end; ++i) {
@@ -197,7 +198,7 @@ bool SparseTick::expand() {
 void SparseTick::note_reach(BitSet active) {
   const uint32_t listed = count;
   for (uint32_t i = 0; i < listed; ++i) include(reach[list[i]], boxes[list[i]]);
-  // Adds the bodies that rest in the record but are active in this run to `list`.
+  // Adds the bodies to `list` that rested in the recorded step but are active in this run.
   inside.for_each([&](uint32_t slot) {
     if (!active.has(slot) || differs.has(slot) || record.movers.has(slot)) return;
     for (uint32_t i = listed; i-- > 0;) {

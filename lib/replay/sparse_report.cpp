@@ -9,7 +9,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Replaces the part of the bodies inside in a count of a whole step.
+/// Replaces the contribution of the bodies inside, `base`, by `made` in a count of a step of the whole world.
 template <class Count>
 void replace(const Count& base, const Count& made, Count& total) {
   total = static_cast<Count>(total - base + made);

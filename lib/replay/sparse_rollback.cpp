@@ -18,9 +18,10 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr uint32_t k_runs_max = 3;
-/// A tick is repeated in part only if the bodies to simulate are at most 1 / k_share_divisor of the bodies that moved
-/// in it. The bodies to simulate are simulated twice: from the recorded state and from the present state.
+constexpr uint32_t k_runs_max = 3;  ///< simulate(): how often the bodies inside are simulated at most
+/// A tick is repeated in part only if the number of bodies to simulate is at most 1 / k_share_divisor of the number of
+/// bodies that moved in the recorded step. The bodies to simulate may be simulated twice: from the recorded state and
+/// from the present state.
 constexpr uint32_t k_share_divisor = 3;
 
 /// Whether the used elements of two states are equal.
@@ -67,7 +68,8 @@ SparseRollback* SparseRollback::begin(uint8_t* memory, const World& world, uint3
   made.memory_ = memory;
   made.images_ = memory + made.layout_.images;
   memset(made.images_, 0, static_cast<uint32_t>(made.layout_.bytes) - made.layout_.images);
-  // The images of the starts of ticks come first, then the images of the records, then the spare image.
+  // The images of the states at the starts of ticks come first, then those of the states just before the recorded
+  // steps, then the spare image.
   for (uint32_t i = 0; i < 2 * window + 2; ++i)
     *at_offset<BlockHeader>(made.images_ + i * made.layout_.image_bytes, 0) = state.header;
   made.spare_ = 2 * window + 1;
@@ -138,7 +140,8 @@ void SparseRollback::end_tick(World& world) {
 StepReport SparseRollback::make_step(void* context, World& world) {
   SparseRollback& self = *static_cast<SparseRollback*>(context);
   if (world.block == self.block_) return self.step(world);
-  // The game has copied the world's handle with this observer, for another world or for a step outside of the session.
+  // This is not a step of the session: the game has copied the World object, with this observer, and steps the copy
+  // with another block or outside of the session's tick.
   World other = world;
   other.hooks.observer = self.theirs_;
   StepProbe probe;
@@ -188,7 +191,7 @@ StepReport SparseRollback::step(World& world) {
   return report;
 }
 
-/// Copies the events of the step to the record. If there is no room for them, the record becomes unusable.
+/// Copies the events of the step to the record. If the record has no room for them, it becomes unusable.
 void SparseRollback::record_events(const World& world, const StepReport& report, const TickRecord& record) const {
   const auto copy = [&](const auto& buffer, uint32_t count, const auto& to, uint32_t& kept) {
     if (count > to.count) record.head.usable = 0;
@@ -201,7 +204,7 @@ void SparseRollback::record_events(const World& world, const StepReport& report,
   copy(world.hooks.body_events, report.events.body, record.body_events, record.head.event[3]);
 }
 
-/// Computes the bounds of all bodies, for a step in which no body moves.
+/// Sets `reach` to the bounds of all bodies, for an idle step, which does not compute them.
 void SparseRollback::reach_at_rest(World& world, Span<Bounds> reach) const {
   const StateView<uint8_t> state = view_of(world);
   const Scratch scratch = scratch_of(world.block, state.layout, capacity_);
@@ -234,17 +237,17 @@ StepReport SparseRollback::step_whole(World& world, const TickRecord& record) {
   head.impacts = probe.use;
   head.joint_couplings = probe.joint_couplings;
   head.joint_numbers = probe.joint_numbers;
-  // Sensors require two things. Continuous collision: without it, a body may leave its bounds, and sensors would still
-  // find the body. A buffer of sensor events: the events tell how many bodies passed through sensors, which takes room
-  // in the pool of sensed pairs.
+  // In a world with sensors, the record is usable only with continuous collision and a buffer of sensor events. Without
+  // continuous collision, a body may leave its bounds, and a sensor could find it there. Bodies that pass through
+  // sensors take room in the pool of sensed pairs; only the sensor events tell how many there are.
   const bool is_bounded =
       state.world.sensor_count == 0 || (state.world.continuous != 0 && room_of(world.hooks.sensor_events).count != 0);
   head.usable = (is_idle || noted_) && is_whole(report) && is_bounded && !probe.use.is_spent() ? 1 : 0;
   return report;
 }
 
-/// Simulates a step of the bodies inside, from the given state. Returns false if the step used up a pool or a budget,
-/// or if continuous collision stopped a body: then other bodies could change the result.
+/// Simulates a step of the bodies inside, from the state `from`. Returns false if the step used up a pool or a budget,
+/// or if continuous collision stopped a body, because the bodies outside could then change the result.
 bool SparseRollback::run(World& world, SparseTick& tick, const StateView<const uint8_t>& from, const WorldHooks& hooks,
                          StepProbe& probe, StepReport& report) {
   tick.load(from, view_of(world));
@@ -267,8 +270,8 @@ bool SparseRollback::run(World& world, SparseTick& tick, const StateView<const u
   return is_whole(report) && !probe.use.is_spent() && report.ccd.bodies_stopped == 0;
 }
 
-/// If the record already has the result of a run of the same bodies from the recorded state, takes that result and
-/// returns true.
+/// If the record already has the result of a run of the same bodies from the recorded state, sets `base` and
+/// base_probe_ to this result and returns true.
 bool SparseRollback::take_known_part(const SparseTick& tick, StepReport& base) {
   const TickRecord& record = tick.record;
   const TickHead& head = record.head;
@@ -283,8 +286,8 @@ bool SparseRollback::take_known_part(const SparseTick& tick, StepReport& base) {
   return true;
 }
 
-/// Keeps the result of the run of the bodies inside, for take_known_part(). The result cannot be used again if joints
-/// hold on to a body that they do not move, because the unit of such a body is not kept.
+/// Keeps the result of the run of the bodies inside, for take_known_part(). The result cannot be used again if a body
+/// has joints but is not moved by the solver, because its unit for joints (SparseTick::keep_units()) is not kept.
 void SparseRollback::keep_part(const SparseTick& tick, const StepReport& made, TickHead& head) const {
   head.part_known = 1;
   for (const JointBody& body : made_probe_.joint_bodies) {
@@ -298,8 +301,9 @@ void SparseRollback::keep_part(const SparseTick& tick, const StepReport& made, T
   memcpy(tick.record.part_visible.words.data, tick.visible.words.data, tick.visible.words.count * sizeof(uint32_t));
 }
 
-/// Simulates the bodies inside, from the recorded state and from the present state. Repeats this with more bodies until
-/// the bodies inside reach no others. Returns false if the tick cannot be repeated in part.
+/// Simulates the bodies inside, from the recorded state and from the present state. Repeats this with more bodies, up
+/// to k_runs_max times in all, until the bodies inside reach no others. Returns false if the tick cannot be repeated in
+/// part.
 bool SparseRollback::simulate(World& world, SparseTick& tick, StepReport& base, StepReport& made) {
   const StateView<uint8_t> state = view_of(world);
   if (!tick.expand()) return false;
@@ -370,7 +374,8 @@ bool SparseRollback::step_sparse(World& world, const TickRecord& record, StepRep
     total.report.events = made.events;
     total.report.bodies = now.world.body_count;
     total.report.substeps_max = most_substeps(tick, made.substeps_max);
-    // This writes to the caller's buffers of events. If it fails, the whole step that follows overwrites them.
+    // merge_events() writes to the caller's event buffers. If one of the conditions fails, the step of the whole world
+    // that follows overwrites them.
     is_exact = has_room(total, capacity_) && tick.merge_events(world.hooks, total.report) && tick.merge(state) &&
                state.world.sensed_count + total.report.events.sensor <= capacity_.sensed;
   }

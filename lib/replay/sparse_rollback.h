@@ -12,26 +12,27 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The states and records of the last ticks of a session, and the step that uses them. The object lies in the session's
-/// memory.
+/// Keeps the states and the records (TickRecord) of the last ticks of a session, and makes the steps of the session
+/// from them. The object lies in the session's memory. An *image* is a copy of a world's state in this memory.
 class SparseRollback {
  public:
-  /// Makes a SparseRollback in `memory`, for worlds with the capacity of `world`. The layout of the memory is that of
-  /// sparse_layout().
+  /// Makes a SparseRollback in `memory`, for worlds with the capacity of `world` and a window of `window` ticks. The
+  /// layout of the memory is that of sparse_layout().
   static SparseRollback* begin(uint8_t* memory, const World& world, uint32_t window);
 
   /// Keeps the state of the world as the start of its next tick. Errors: capacity_differs.
   Status keep(const World& world);
-  /// Restores the state at the start of a tick. The records of this tick and of all later ticks stay.
+  /// Restores the state at the start of a tick. Keeps the records of this tick and of all later ticks.
   /// Errors: capacity_differs, feature_missing.
   Status restore(World& world, uint64_t tick);
-  /// The kept state at the start of one of the last ticks, to be read only.
+  /// Returns the kept state at the start of one of the last ticks, as a world that must only be read.
   World kept(uint64_t tick) const;
-  /// Until end_tick(), this object makes the steps of the world. `again`: the tick was simulated before.
+  /// From this call until end_tick(), this object makes the steps of the world, in place of step(). `again`: the tick
+  /// is repeated.
   void start_tick(World& world, bool again);
   void end_tick(World& world);
 
-  uint64_t summed = 0;        ///< the first tick whose checksum the session has not taken
+  uint64_t summed = 0;        ///< the first tick whose checksum the session has not taken yet
   uint64_t bodies_again = 0;  ///< number of awake bodies that were simulated again, summed over the repeated ticks
   uint32_t ticks_whole = 0;   ///< number of repeated ticks in which all bodies were simulated
 
@@ -57,15 +58,16 @@ class SparseRollback {
   uint8_t *memory_ = nullptr, *images_ = nullptr;
   Capacity capacity_ = {};
   uint32_t window_ = 0;
-  uint32_t spare_ = 0;  ///< image that no record uses
-  bool again_ = false;
-  const uint8_t* block_ = nullptr;  ///< of the world whose tick is being simulated
+  uint32_t spare_ = 0;              ///< index of the image that no record uses
+  bool again_ = false;              ///< argument of start_tick()
+  const uint8_t* block_ = nullptr;  ///< block of the world whose tick is being simulated
   StepObserver observer_ = {};
   const StepObserver* theirs_ = nullptr;  ///< the caller's observer
   bool inside_ = false;                   ///< the step that runs now simulates only some of the bodies
   bool noted_ = false;                    ///< note_stage() has filled `reach_` and `solved_`
-  Span<Bounds> reach_ = {};
-  BitSet solved_ = {};
+  Span<Bounds> reach_ = {};               ///< TickRecord::reach or SparseTick::reach of the step that runs now
+  BitSet solved_ = {};                    ///< TickRecord::solved or SparseTick::solved of the step that runs now
+  /// Of the last runs of the bodies inside: from the recorded state (base) and from the present state (made).
   StepProbe base_probe_ = {}, made_probe_ = {};
 };
 static_assert(sizeof(SparseRollback) <= k_sparse_control_bytes);

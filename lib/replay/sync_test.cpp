@@ -6,7 +6,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Calls the maker for one tick. Returns false if the maker did not advance the world by exactly one tick.
+/// Calls the maker for one tick. `index`: the tick's place in SyncTestDef::inputs. Returns false if the maker did not
+/// advance the world by exactly one tick.
 bool make_tick(World& world, const SyncTestDef& def, TickMaker maker, uint32_t index, bool again) {
   const uint64_t tick = get_info(world).tick;
   const uint8_t* inputs = def.inputs == nullptr ? nullptr : def.inputs + index * def.players * def.input_bytes;

@@ -9,7 +9,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Writes the trace of a tick through the recorder's buffer. The buffer is empty before and after the trace.
+/// Writes the trace of a tick to the recorder's buffer, and from there in chunks. The buffer is empty before and after
+/// the trace.
 struct TraceWriter {
   Recorder& recorder;
   const StepObserver* before = nullptr;  ///< the observer that the world had before the trace

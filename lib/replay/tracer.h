@@ -4,7 +4,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The entry point of the code that traces, for a recorder. The code is linked only if a program uses this entry point.
+/// The table through which a recorder traces. The code for this is linked only if a program uses the table (k_tracer).
 struct Tracer {
   /// Steps the recorder's world, and writes the trace of the tick before the tick's record.
   StepReport (*step)(Recorder& recorder);

@@ -2,7 +2,7 @@
 #include <detent/body.h>
 #include <detent/detail/state.h>
 
-/// Queries of body properties.
+/// Functions that read the properties of a body.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -19,7 +19,8 @@ inline bool is_compound(const BodyProperties& properties) { return shape_of(prop
 inline bool has_parts(const BodyProperties& a, const BodyProperties& b) {
   return is_terrain(a) || is_terrain(b) || is_compound(a) || is_compound(b);
 }
-/// Whether a body is a half-space or terrain. It has no thickness to which the motion of other bodies can be compared.
+/// Whether a body is a half-space or terrain. Such a body has no thickness with which the motion of another body could
+/// be compared.
 inline bool is_ground(const BodyProperties& properties) { return is_half_space(properties) || is_terrain(properties); }
 
 inline Filter filter_of(const BodyProperties& properties) {

@@ -17,12 +17,12 @@ inline constexpr Coord k_coord_limit =
 inline constexpr Bounds k_everywhere = {{-k_coord_limit, -k_coord_limit, -k_coord_limit},
                                         {k_coord_limit, k_coord_limit, k_coord_limit}};
 
-/// Empty bounds: they overlap nothing.
+/// Empty bounds, which overlap no other bounds.
 inline constexpr Bounds k_nowhere = {k_everywhere.upper, k_everywhere.lower};
 
-/// The half extents of the smallest axis-aligned bounds that are centred at the body's position and contain the shape,
-/// m, world axes. Not for a half-space. A hull, terrain or compound is replaced by the box of its half extents and by
-/// its bounding ball; of the two results, the smaller one counts in each axis. Rounding: within 2^-28 of the body's
+/// The half extents, m, of the smallest axis-aligned bounds in world axes that are centred at the body's position and
+/// contain the shape. Range: not a half-space. For a hull, terrain or compound, each component is the smaller one of
+/// two bounds: that of the box of its half extents, and that of its bounding ball. Rounding: within 2^-28 of the body's
 /// unit of length.
 inline Vec3<Real> half_bounds(const BodyProperties& properties, const Matrix3& rotation) {
   const Unit zero = 0.0;

@@ -17,7 +17,8 @@ int64_t length_of(const Vec32& v) {
 /// value 2^-n, rounded up. Range: 0 <= n < 62.
 int64_t shift_up(int64_t value, int n) { return (value + (int64_t{1} << n) - 1) >> n; }
 
-/// Returns how far the hull reaches behind the plane of a face, in 2^-30 of the hull's unit, rounded down.
+/// The extent of the hull behind the plane of a face: the distance of the farthest vertex from the plane, in 2^-30 of
+/// the hull's unit, rounded down.
 int64_t depth_behind(const HullView& hull, uint32_t face) {
   const HullPlane plane = hull.plane(face);
   const Vec32 normal = {plane.normal[0], plane.normal[1], plane.normal[2]};
@@ -75,7 +76,8 @@ bool header_is_good(const CompoundView& compound) {
   return true;
 }
 
-/// Reads the hull at `at`, and sets `at` to the end of the hull.
+/// Reads the hull at the offset `at`, and sets `at` to its end. Returns false unless the hull is valid, in the source
+/// frame, and has an exponent of at most `exponent`.
 bool read_child_hull(const Asset& asset, uint32_t& at, int32_t exponent, HullView& hull) {
   if (asset.byte_count - at < k_hull_header_bytes) return false;
   const uint32_t bytes = cooked_u32(asset.bytes + at + k_hull_byte_count_at);
@@ -98,8 +100,8 @@ bool is_within(const HullView& inner, const HullView& outer) {
   return true;
 }
 
-/// Checks child `i` and computes its measure. `at`: the offset at which the next hull must start; moved past the
-/// child's hulls.
+/// Checks child `i` and computes its measure. `at`: the offset at which the child's first hull must start. The function
+/// moves it past the child's hulls.
 bool read_child(const Asset& asset, const CompoundView& compound, uint32_t i, uint32_t& at, ChildMeasure& measure) {
   const CompoundChild child = compound.child(i);
   const uint32_t start = k_compound_header_bytes + k_compound_child_bytes * i;
@@ -168,7 +170,8 @@ Status read_compound(const Asset& asset, CompoundView& compound) {
     half = {most(box.low.x, box.high.x, half.x), most(box.low.y, box.high.y, half.y),
             most(box.low.z, box.high.z, half.z)};
   }
-  // The unit is the least power of two above the radius, within rounding.
+  // The compound's unit is the least power of two above its radius, so the radius is at least half a unit, within
+  // rounding.
   if (at != asset.byte_count || view.radius() != radius || radius < k_one / 2 - 2 || !(view.half_extents() == half) ||
       view.half_thickness() != thickness) {
     return Status::corrupt;

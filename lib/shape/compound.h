@@ -19,7 +19,7 @@ inline constexpr uint32_t k_compound_child_count_at = 28;
 inline constexpr uint32_t k_compound_half_extents_at = 32;  ///< x, y, z
 inline constexpr uint32_t k_compound_half_thickness_at = 44;
 inline constexpr uint32_t k_compound_volume_at = 48;           ///< mantissa, exponent
-inline constexpr uint32_t k_compound_inverse_inertia_at = 56;  ///< mantissa, exponent; three times
+inline constexpr uint32_t k_compound_inverse_inertia_at = 56;  ///< mantissa, exponent; for each of the three axes
 inline constexpr uint32_t k_compound_origin_at = 80;           ///< three doubles
 inline constexpr uint32_t k_compound_rotation_at = 104;
 inline constexpr uint32_t k_compound_header_bytes = 128;  ///< zero from 120 on; the children follow
@@ -41,22 +41,23 @@ enum class ChildKind : uint32_t {
   hull = 3,     ///< a cooked hull in the compound's axes
 };
 
-/// One convex part. Lengths in 2^-30 of the compound's unit.
+/// One convex part of a compound. Lengths are in 2^-30 of the compound's unit.
 struct CompoundChild {
   ChildKind kind;
-  int32_t radius;          ///< rounding radius
-  uint32_t hull_at;        ///< hull: where its bytes start, from the compound's start
-  uint32_t inner_at;       ///< hull: where its inner hull starts, which is used to test bodies that penetrate deeply
-  Vec32 low, high;         ///< hull: the least and the greatest coordinates of its vertices
-  int32_t half_thickness;  ///< `radius`; for a hull plus half of the least depth of the hull behind one of its faces
+  int32_t radius;     ///< rounding radius
+  uint32_t hull_at;   ///< of a hull: offset of its bytes from the compound's start; else 0
+  uint32_t inner_at;  ///< of a hull: offset of its inner hull, which is tested against bodies that penetrate deeply
+  Vec32 low, high;    ///< of a hull: the least and the greatest coordinates of its vertices
+  int32_t half_thickness;  ///< `radius`; of a hull: plus half of its least extent along a face normal
 };
 
-/// An axis-aligned box; both ends are included. In 2^-30 of the unit.
+/// An axis-aligned box, in 2^-30 of the compound's unit; both ends are included.
 struct ChildBox {
   Vec32 low, high;
 };
 
-/// A view of a cooked compound; it copies nothing. The compound's origin is the centre of mass, its axes are principal.
+/// A view of a cooked compound; it copies nothing. The origin of the compound's frame is its centre of mass, and the
+/// axes are its principal axes of inertia.
 struct CompoundView {
   const uint8_t* bytes = nullptr;
   uint32_t child_count = 0;
@@ -65,11 +66,11 @@ struct CompoundView {
   /// Greatest distance of the surface from the origin, rounded up.
   int32_t radius() const { return cooked_i32(bytes + k_compound_radius_at); }
   int32_t half_thickness() const { return cooked_i32(bytes + k_compound_half_thickness_at); }
-  /// The greatest |x|, |y| and |z|.
+  /// The greatest |x|, |y| and |z| of the surface.
   Vec32 half_extents() const { return vector(bytes + k_compound_half_extents_at); }
   /// The volume (mass over density), in unit^3.
   HullScaled volume() const { return scaled(k_compound_volume_at); }
-  /// Inverse inertia (per unit mass), m unit^2 / I, about the body's axis (0 to 2).
+  /// Inverse inertia (per unit mass), m unit^2 / I, about the body axis `axis` (0 to 2).
   HullScaled inverse_inertia(uint32_t axis) const { return scaled(k_compound_inverse_inertia_at + 8 * axis); }
   CompoundChild child(uint32_t i) const {
     DETENT_VERIFY_RANGE(i < child_count);
@@ -95,7 +96,7 @@ inline CompoundView compound_view(const uint8_t* bytes) {
   return {bytes, cooked_u32(bytes + k_compound_child_count_at)};
 }
 
-/// The child's bounds, including its rounding radius. Range: |component| < 2^31.
+/// The child's bounds, including its rounding radius. Range: the components of the result are below 2^31 in magnitude.
 inline ChildBox child_box(const CompoundChild& child) {
   const Vec32 &a = child.low, &b = child.high;
   const int32_t r = child.radius;
@@ -104,8 +105,8 @@ inline ChildBox child_box(const CompoundChild& child) {
   return {{least(a.x, b.x), least(a.y, b.y), least(a.z, b.z)}, {most(a.x, b.x), most(a.y, b.y), most(a.z, b.z)}};
 }
 
-/// Values that the header and the children store. `detent cook` computes them from the hulls and balls and writes
-/// them. The reader computes them again and compares.
+/// The measures of a child, from which the values in the header and in the child follow. `detent cook` writes these
+/// values. read_compound() computes them again and compares.
 struct ChildMeasure {
   Vec32 low, high;
   int64_t radius;  ///< greatest distance of the child's surface from the origin, rounded up
@@ -115,8 +116,8 @@ struct ChildMeasure {
 ChildMeasure measure_child(const CompoundChild& child, const HullView& hull, int32_t exponent);
 
 /// Checks untrusted bytes. The children of an accepted compound are balls, capsules and hulls that read_hull() accepts.
-/// They lie within the stated bounds, and each inner hull lies within its hull. Volume, inverse inertia, origin and
-/// rotation are checked only for their ranges. Errors: as compound_info().
+/// They lie within the bounds that the file states, and each inner hull lies within its hull. Volume, inverse inertia,
+/// origin and rotation are checked only for their ranges. Errors: as compound_info().
 Status read_compound(const Asset& asset, CompoundView& compound);
 
 }  // namespace DETENT_NAMESPACE

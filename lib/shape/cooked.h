@@ -31,7 +31,8 @@ inline uint32_t cooked_u16(const uint8_t* bytes) {
 }
 inline int32_t cooked_i16(const uint8_t* bytes) { return static_cast<int16_t>(cooked_u16(bytes)); }
 
-/// Reads the frame of the body in the axes of the source: the origin (three doubles) and the rotation (Q30).
+/// Reads the frame of the body in the source frame, that is, the axes of the data before cooking: the origin (three
+/// doubles, m) and the rotation (a quaternion, Q30).
 inline void read_source_frame(const uint8_t* origin_bytes, const uint8_t* rotation_bytes, double (&origin)[3],
                               int32_t (&rotation)[4]) {
   for (uint32_t axis = 0; axis < 3; ++axis) {
@@ -41,8 +42,8 @@ inline void read_source_frame(const uint8_t* origin_bytes, const uint8_t* rotati
   for (uint32_t k = 0; k < 4; ++k) rotation[k] = cooked_i32(rotation_bytes + 4 * k);
 }
 
-/// The square of a unit vector or quaternion, Q60, and its tolerance. Rounding of four components changes the square by
-/// about 2^31.
+/// The squared length of a unit vector or unit quaternion, Q60, and the tolerance of this square. The rounding of four
+/// components changes it by about 2^31.
 inline constexpr uint64_t k_one_squared = uint64_t{1} << 60;
 inline constexpr uint64_t k_unit_vector_slack = uint64_t{1} << 32;
 
@@ -51,8 +52,9 @@ constexpr uint32_t align_8(uint32_t bytes) { return (bytes + 7) / 8 * 8; }
 /// Whether the bytes from `from` up to `to` are zero.
 bool cooked_is_zero(const uint8_t* bytes, uint32_t from, uint32_t to);
 
-/// Checks alignment, magic, version, count and checksum. If they are right, the header may be read. `header_bytes` >
-/// 20. Errors: buffer_misaligned (8), not_detent, format_unknown, truncated, corrupt.
+/// Checks the alignment, the magic, the version, the count of bytes and the checksum. If the function returns ok, the
+/// first `header_bytes` bytes may be read. Range: header_bytes > 20. Errors: buffer_misaligned (8), not_detent,
+/// format_unknown, truncated, corrupt.
 Status check_cooked(const Asset& asset, const uint8_t (&magic)[8], uint32_t version, uint32_t header_bytes);
 
 }  // namespace DETENT_NAMESPACE

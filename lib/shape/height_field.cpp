@@ -7,7 +7,8 @@ namespace {
 
 bool in_range(int64_t value) { return value >= -k_terrain_coordinate_max && value <= k_terrain_coordinate_max; }
 
-/// Whether the sizes are positive and all samples are in range. The root node gives the least and the greatest sample.
+/// Whether the spacings and the height step are positive, and all samples are in range. The root node contains the
+/// least and the greatest height.
 bool lengths_are_good(const HeightFieldView& field) {
   if (field.spacing_x <= 0 || field.spacing_z <= 0 || field.step <= 0) return false;
   const uint8_t* root = field.node(field.level_count - 1, 0, 0);
@@ -51,7 +52,8 @@ void height_node(const HeightFieldView& field, uint32_t level, uint32_t i, uint3
   }
 }
 
-// Corners are counter-clockwise from above. Edge 2 is the diagonal; edges 0 and 1 are sides of the cell.
+// Seen from above, the corners are in counter-clockwise order. Edge 2 is the diagonal of the cell; edges 0 and 1 are
+// sides of the cell.
 void HeightFieldView::corners(uint32_t index, Vec32 (&corner)[3]) const {
   const uint32_t i = index / 2 % columns, j = index / 2 / columns;
   const bool second = index % 2 != 0, turned = (cell(i, j) & k_cell_turned) != 0;

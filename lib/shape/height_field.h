@@ -24,13 +24,14 @@ inline constexpr uint32_t k_height_field_header_bytes = 64;  ///< zero from 60 o
 
 inline constexpr uint32_t k_height_field_one_sided = 1;     ///< a bit of the flags
 inline constexpr uint32_t k_height_field_cells_max = 4096;  ///< along a side
-inline constexpr uint8_t k_cell_hole = 0x80;                ///< no triangles
-inline constexpr uint8_t k_cell_turned = 0x40;  ///< the diagonal runs from (i + 1, j) to (i, j + 1), not from (i, j)
+inline constexpr uint8_t k_cell_hole = 0x80;                ///< a bit of a cell: it has no triangles
+/// A bit of cell (i, j): its diagonal runs from (i + 1, j) to (i, j + 1), not from (i, j) to (i + 1, j + 1).
+inline constexpr uint8_t k_cell_turned = 0x40;
 inline constexpr uint8_t k_cell_material = 0x3f;
 
 inline constexpr uint32_t k_height_block_bits = 3;  ///< a leaf of the tree contains 8 x 8 cells
 inline constexpr uint32_t k_height_levels_max = 10;
-inline constexpr uint32_t k_height_node_bytes = 4;  ///< int16 least and greatest height
+inline constexpr uint32_t k_height_node_bytes = 4;  ///< two int16: the least and the greatest height
 
 /// A view of a cooked height field; it copies nothing. Node (i, j) of a level contains the nodes (2 i, 2 j) to
 /// (2 i + 1, 2 j + 1) of the level below, as far as they exist.
@@ -58,7 +59,8 @@ struct HeightFieldView {
   int32_t x(uint32_t i) const { return origin.x + static_cast<int32_t>(i) * spacing_x; }
   int32_t z(uint32_t j) const { return origin.z + static_cast<int32_t>(j) * spacing_z; }
 
-  /// The cell (i, j) has the triangle 2 (j columns + i) and the next one; a hole has none.
+  /// Triangle `index`, with its neighbours. The cell (i, j) has the triangles t and t + 1 with t = 2 (j columns + i). A
+  /// hole has none.
   TerrainTriangle triangle(uint32_t index) const;
   uint32_t level_columns(uint32_t level) const { return blocks(columns, level); }
   uint32_t level_rows(uint32_t level) const { return blocks(rows, level); }
@@ -87,7 +89,8 @@ struct HeightFieldView {
 
  private:
   void corners(uint32_t index, Vec32 (&corner)[3]) const;
-  /// The triangle at a side of a cell. Sides 0 to 3: lower x, upper z, upper x, lower z.
+  /// The index of the triangle at a side of cell (i, j). Sides 0 to 3 are those at the lower x, upper z, upper x and
+  /// lower z.
   uint32_t triangle_at_side(uint32_t i, uint32_t j, uint32_t side) const {
     const bool turned = (cell(i, j) & k_cell_turned) != 0;
     const bool second = side == 2 || (side == 1 && turned) || (side == 3 && !turned);
@@ -100,7 +103,8 @@ struct HeightFieldView {
 /// The height field at `bytes`. read_height_field() must have accepted them; this function checks nothing.
 HeightFieldView height_field_view(const uint8_t* bytes);
 
-/// Computes what the file stores for a node: the least and the greatest height of its samples, or of the nodes below.
+/// Computes the values that the file stores for a node: the least and the greatest height of its samples (level 0) or
+/// of its child nodes.
 void height_node(const HeightFieldView& field, uint32_t level, uint32_t i, uint32_t j, int32_t& low, int32_t& high);
 
 /// Checks untrusted bytes. Errors: buffer_misaligned (8), not_detent, format_unknown, truncated, corrupt,
@@ -130,7 +134,7 @@ void HeightFieldView::walk(Meets&& meets, Visit&& visit) const {
   struct Entry {
     uint32_t level, i, j;
   };
-  Entry stack[3 * k_height_levels_max + 1];  // at most three nodes wait per level
+  Entry stack[3 * k_height_levels_max + 1];  // at most three nodes of each level wait
   uint32_t count = 0;
   stack[count++] = {level_count - 1, 0, 0};
   while (count > 0) {

@@ -31,7 +31,7 @@ bool gaps_are_zero(const HullView& hull) {
          cooked_is_zero(hull.bytes, at.edges + k_hull_edge_bytes * hull.edge_count, at.end);
 }
 
-/// Checks the vertices' norms, the core radius and the padding.
+/// Checks the lengths of the vertices, the core radius and the padding.
 bool vertices_are_good(const HullView& hull) {
   uint64_t greatest = 0;
   for (uint32_t i = 0; i < hull.vertex_count; ++i) {
@@ -44,7 +44,8 @@ bool vertices_are_good(const HullView& hull) {
     if (hull.x(i) != hull.x(0) || hull.y(i) != hull.y(0) || hull.z(i) != hull.z(0)) return false;
   }
   const int32_t radius = hull.core_radius();
-  // The unit is the least power of two above all norms, within the rounding of a vertex.
+  // The unit is the least power of two above the lengths of all vertices, within the rounding of a vertex. So the
+  // radius is at least half a unit.
   return radius >= (1 << 29) - 1 && radius <= (1 << 30) && greatest <= square(radius) && greatest > square(radius - 1);
 }
 
@@ -58,7 +59,8 @@ bool offsets_are_good(const uint8_t* offsets, uint32_t count, uint32_t total) {
   return true;
 }
 
-/// The position of `b` in `neighbours` as a neighbour of `a`; k_half_edges_max if it is not a neighbour.
+/// The index in the array `neighbours` of the entry for `b` in the list of vertex `a`; k_half_edges_max if `b` is not
+/// in the list.
 uint32_t half_edge(const HullView& hull, uint32_t a, uint32_t b) {
   const HullIndices around = hull.neighbours(a);
   const uint32_t at = partition_point(around.count, [&](uint32_t i) { return around.index[i] < b; });
@@ -66,10 +68,11 @@ uint32_t half_edge(const HullView& hull, uint32_t a, uint32_t b) {
   return static_cast<uint32_t>(around.index + at - (hull.bytes + hull.at.neighbours));
 }
 
-/// Whether the triangles form a closed surface whose sides are the neighbours, no vertex lies above a triangle's plane,
-/// and the surface encloses the stated volume. If so, the triangles at each vertex cover the boundary around it. A
-/// vertex that is not the farthest along a direction then has a neighbour that is farther. There are as many sides as
-/// neighbours. So if each side is found and none is found twice, the neighbours are in range, ascending and complete.
+/// Whether the triangles form a closed surface whose directed sides are the entries of the neighbour lists, no vertex
+/// lies above a triangle's plane, and the surface encloses the stated volume. If so, the triangles at each vertex cover
+/// the boundary around it. A vertex that is not the farthest along a direction then has a neighbour that is farther.
+/// There are as many directed sides as entries in the lists. So if each side is found in the lists, and none is found
+/// twice, the lists are in range, ascending and complete.
 bool triangles_are_good(const HullView& hull) {
   uint8_t seen[(k_half_edges_max + 7) / 8] = {};
   const Vec32 apex = hull.vertex(0);
@@ -95,10 +98,11 @@ bool triangles_are_good(const HullView& hull) {
   }
   const HullScaled stated = hull.volume();
   if (!stated.is_canonical(-130, -28)) return false;
-  const int shift = stated.exponent + 90;  // -40 to 62
+  const int shift = stated.exponent + 90;  // in [-40, 62]
   const Int128 six = Int128::from(int64_t{6} * stated.mantissa).shift_left(shift > 0 ? shift : 0);
   const Int128 error =
-      six - (shift < 0 ? volume.shift_left(-shift) : volume);  // at most one mantissa step, so the volume is positive
+      // The error must be at most one step of the mantissa. This also makes the volume positive.
+      six - (shift < 0 ? volume.shift_left(-shift) : volume);
   const Int128 step = Int128::from(6).shift_left(shift > 0 ? shift : 0);
   return !(step < error) && !(step < -error);
 }
@@ -137,8 +141,8 @@ bool loop_is_good(const HullView& hull, uint32_t face) {
   return true;
 }
 
-/// Whether no vertex lies above the face's plane, and no vertex of the face lies below the plane or outside a side by
-/// more than the slack.
+/// Whether no vertex lies above the face's plane, and no vertex of the face lies more than k_hull_face_slack below the
+/// plane or outside a side of the face.
 bool plane_is_good(const HullView& hull, uint32_t face) {
   const HullPlane plane = hull.plane(face);
   const auto& n = plane.normal;
@@ -154,7 +158,8 @@ bool plane_is_good(const HullView& hull, uint32_t face) {
     const Vec32 a = hull.vertex(loop.index[k]);
     if (height(a) < top - k_hull_face_slack * k_one_64) return false;
     const Vec32 b = hull.vertex(loop.index[k + 1 == loop.count ? 0 : k + 1]);
-    uint64_t side = magnitude_64(int64_t{b.x} - a.x);  // its longest component: at most its length
+    // The longest component of the side, which is at most the side's length.
+    uint64_t side = magnitude_64(int64_t{b.x} - a.x);
     if (magnitude_64(int64_t{b.y} - a.y) > side) side = magnitude_64(int64_t{b.y} - a.y);
     if (magnitude_64(int64_t{b.z} - a.z) > side) side = magnitude_64(int64_t{b.z} - a.z);
     const Int128 least = -Int128::product(static_cast<int64_t>(side) * k_hull_face_slack, k_one_64);
@@ -166,8 +171,8 @@ bool plane_is_good(const HullView& hull, uint32_t face) {
   return true;
 }
 
-/// Whether the edges are in ascending order and each lies between two faces that have it in opposite directions. The
-/// number of edges is right, so these are all edges.
+/// Whether the edges are in ascending order and each lies between two faces that have it in opposite directions.
+/// Because read_hull() has checked the number of edges, no edge is missing.
 bool edges_are_good(const HullView& hull) {
   uint32_t last = 0;
   for (uint32_t i = 0; i < hull.edge_count; ++i) {
@@ -187,7 +192,7 @@ bool frame_is_good(const HullView& hull) {
   const bool principal = hull.frame() == HullFrame::principal;
   if (!principal && hull.frame() != HullFrame::source) return false;
   for (uint32_t axis = 0; axis < 3; ++axis) {
-    const HullScaled inverse_inertia = hull.inverse_inertia(axis);  // in (1, 2^70): no vertex is a unit away
+    const HullScaled inverse_inertia = hull.inverse_inertia(axis);  // in (1, 2^70): all vertices are within one unit
     if (principal && !inverse_inertia.is_canonical(-30, 40)) return false;
     if (!principal && (inverse_inertia.mantissa != 0 || inverse_inertia.exponent != 0)) return false;
     const uint64_t origin = load_u64(hull.bytes + k_hull_origin_at + 8 * axis);
@@ -214,7 +219,8 @@ Status read_hull(const Asset& asset, HullView& hull) {
   const uint32_t vertices = cooked_u32(bytes + k_hull_vertex_count_at);
   const uint32_t faces = cooked_u32(bytes + k_hull_face_count_at);
   if (vertices < k_hull_vertices_min || vertices > k_hull_vertices_max || faces < 4 || faces > 2 * vertices - 4 ||
-      cooked_u32(bytes + k_hull_edge_count_at) != vertices + faces - 2) {  // by Euler; so the triangles are 2 V - 4
+      // The number of edges follows from Euler's formula, which also implies 2 V - 4 triangles.
+      cooked_u32(bytes + k_hull_edge_count_at) != vertices + faces - 2) {
     return Status::corrupt;
   }
   const HullView view = hull_view(bytes);

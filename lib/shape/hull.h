@@ -24,7 +24,7 @@ inline constexpr uint32_t k_hull_vertex_count_at = 28;
 inline constexpr uint32_t k_hull_face_count_at = 32;
 inline constexpr uint32_t k_hull_edge_count_at = 36;
 inline constexpr uint32_t k_hull_volume_at = 40;           ///< mantissa, exponent
-inline constexpr uint32_t k_hull_inverse_inertia_at = 48;  ///< mantissa, exponent; three times
+inline constexpr uint32_t k_hull_inverse_inertia_at = 48;  ///< mantissa, exponent; for each of the three axes
 inline constexpr uint32_t k_hull_origin_at = 72;           ///< three doubles
 inline constexpr uint32_t k_hull_rotation_at = 96;         ///< x, y, z, w
 inline constexpr uint32_t k_hull_frame_at = 112;
@@ -43,14 +43,15 @@ inline constexpr int32_t k_hull_face_slack = 1 << 10;
 /// faces and E edges, the boundary has 2 V - 4 triangles with 3 V - 6 sides, and all face loops together have 2 E
 /// vertices.
 struct HullLayout {
-  uint32_t x, y, z;            ///< padded_count int32 each, in 2^-30 of the unit
-  uint32_t planes;             ///< F times int32: unit normal x, y, z in 2^-30, offset in 2^-30 of the unit
-  uint32_t loop_offsets;       ///< F + 1 uint16: where each face's loop starts in `loops`, then 2 E
-  uint32_t loops;              ///< 2 E uint8
-  uint32_t neighbour_offsets;  ///< V + 1 uint16: where each vertex's neighbours start in `neighbours`, then 6 V - 12
-  uint32_t neighbours;         ///< 6 V - 12 uint8
-  uint32_t triangles;          ///< 2 V - 4 times three uint8
-  uint32_t edges;              ///< E times HullEdge: uint8 a, b; uint16 left, right
+  uint32_t x, y, z;       ///< padded_count int32 each, in 2^-30 of the unit
+  uint32_t planes;        ///< F times four int32: unit normal x, y, z in 2^-30; offset in 2^-30 of the unit
+  uint32_t loop_offsets;  ///< F + 1 uint16: the start of each face's loop in `loops`; the last one is 2 E
+  uint32_t loops;         ///< 2 E uint8
+  /// V + 1 uint16: the start of each vertex's list in `neighbours`; the last one is 6 V - 12.
+  uint32_t neighbour_offsets;
+  uint32_t neighbours;  ///< 6 V - 12 uint8
+  uint32_t triangles;   ///< 2 V - 4 times three uint8
+  uint32_t edges;       ///< E times HullEdge: uint8 a, b; uint16 left, right
   uint32_t end;
 };
 inline constexpr uint32_t k_hull_plane_bytes = 16;
@@ -59,7 +60,8 @@ inline constexpr uint32_t k_hull_edge_bytes = 6;
 constexpr uint32_t hull_padded_count(uint32_t vertex_count) {
   return (vertex_count + k_hull_padding - 1) / k_hull_padding * k_hull_padding;
 }
-/// Range: vertex_count from k_hull_vertices_min to k_hull_vertices_max, face_count and edge_count below 2^16.
+/// Computes the offsets from the counts. Range: vertex_count from k_hull_vertices_min to k_hull_vertices_max;
+/// face_count and edge_count below 2^16.
 DETENT_SHARED constexpr HullLayout hull_layout(uint32_t vertex_count, uint32_t face_count, uint32_t edge_count) {
   const auto aligned = [](uint32_t bytes) { return (bytes + 7) / 8 * 8; };
   const uint32_t column = 4 * hull_padded_count(vertex_count);
@@ -83,13 +85,14 @@ struct HullPlane {
   int32_t normal[3];  ///< in 2^-30; of length 1 within 2^-29 (its square within 2^-28)
   int32_t offset;     ///< in 2^-30 of the unit
 };
-/// An edge and its two faces. The loop of `left` has the edge from a to b, the loop of `right` from b to a. a < b.
+/// An edge and its two faces. The loop of face `left` runs along the edge from vertex a to b, the loop of `right` from
+/// b to a; a < b.
 struct HullEdge {
   uint8_t a, b;
   uint16_t left, right;
 };
-/// mantissa 2^exponent, 2^30 <= mantissa < 2^31; for the value 0 both are 0. Same as Scaled in the fixed
-/// configurations.
+/// The number mantissa 2^exponent, with 2^30 <= mantissa < 2^31; for the number 0 both members are 0. The fixed
+/// configurations represent a Scaled in the same way.
 struct HullScaled {
   int32_t mantissa, exponent;
 
@@ -117,7 +120,7 @@ struct HullView {
   int32_t y(uint32_t i) const { return coordinate(at.y, i); }
   int32_t z(uint32_t i) const { return coordinate(at.z, i); }
   /// The vertex's neighbours on the triangulated boundary of the exact hull, ascending. If no neighbour lies farther
-  /// along a direction, no vertex does.
+  /// along a direction than the vertex, then no vertex of the hull does.
   HullIndices neighbours(uint32_t vertex) const { return range(at.neighbour_offsets, at.neighbours, vertex); }
   /// The face's vertices, counter-clockwise from outside. The face is flat and convex within k_hull_face_slack.
   HullIndices face(uint32_t i) const { return range(at.loop_offsets, at.loops, i); }
@@ -126,7 +129,8 @@ struct HullView {
     const uint8_t* words = bytes + at.planes + k_hull_plane_bytes * face;
     return {{cooked_i32(words), cooked_i32(words + 4), cooked_i32(words + 8)}, cooked_i32(words + 12)};
   }
-  /// The face's part of the exact hull's triangles: three indices each, counter-clockwise from outside.
+  /// Those triangles of the exact hull's boundary that form the face: three vertex indices each, counter-clockwise from
+  /// outside.
   HullIndices triangles(uint32_t face) const {
     DETENT_VERIFY_RANGE(face < face_count);
     const uint8_t* offsets = bytes + at.loop_offsets + 2 * face;
@@ -145,7 +149,7 @@ struct HullView {
   HullFrame frame() const { return static_cast<HullFrame>(cooked_u32(bytes + k_hull_frame_at)); }
   /// The volume, in unit^3.
   HullScaled volume() const { return scaled(k_hull_volume_at); }
-  /// Inverse inertia (per unit mass), m unit^2 / I, about the body's axis (0 to 2), for uniform density; 0 if the
+  /// Inverse inertia (per unit mass), m unit^2 / I, about the body axis `axis` (0 to 2), for uniform density; 0 if the
   /// vertices are in the source frame (HullFrame::source).
   HullScaled inverse_inertia(uint32_t axis) const { return scaled(k_hull_inverse_inertia_at + 8 * axis); }
 
@@ -176,8 +180,8 @@ DETENT_SHARED inline HullView hull_view(const uint8_t* bytes) {
 
 /// Checks untrusted bytes. An accepted hull is a convex solid in range. Its indices are valid, and hill climbing along
 /// neighbours finds the farthest vertex exactly. Inverse inertia, origin and rotation are checked only for their
-/// ranges, not against the vertices. Takes about 2 V^2 exact plane tests. Errors: buffer_misaligned (8), not_detent,
-/// format_unknown, truncated, corrupt, out_of_range (the exponent).
+/// ranges, not against the vertices. With V vertices, this takes about 2 V^2 exact plane tests. Errors:
+/// buffer_misaligned (8), not_detent, format_unknown, truncated, corrupt, out_of_range (the exponent).
 Status read_hull(const Asset& asset, HullView& hull);
 
 /// The hull reader, for a feature table.

@@ -10,8 +10,8 @@ bool in_range(const Vec32& v) {
   return component(v.x) && component(v.y) && component(v.z);
 }
 
-/// Whether the vertices' bounding box starts at `low`, and the shift is the least with which its extents fit in 16
-/// bits.
+/// Whether the vertices' bounding box starts at `low`, and `shift` is the least number of bits by which the extents of
+/// the box must be shifted to fit in 16 bits.
 bool vertices_are_good(const MeshView& mesh) {
   GridBox box = {mesh.vertex(0), mesh.vertex(0)};
   for (uint32_t i = 0; i < mesh.vertex_count; ++i) {
@@ -24,8 +24,8 @@ bool vertices_are_good(const MeshView& mesh) {
   return fits(mesh.shift) && (mesh.shift == 0 || !fits(mesh.shift - 1));
 }
 
-/// Whether the triangle's words are in range, no neighbour is the triangle itself, exactly the edges without a
-/// neighbour are marked open, and the corners are not on a line.
+/// Whether the triangle's words are in range, no neighbour is the triangle itself, the edges without a neighbour and no
+/// others are marked open, and the corners are not on a line.
 bool triangle_is_good(const MeshView& mesh, uint32_t i) {
   for (uint32_t k = 0; k < 3; ++k) {
     if (mesh.vertex_of(i, k) >= mesh.vertex_count || (k > 0 && mesh.word(i, k) >> 24 != 0)) return false;

@@ -17,17 +17,19 @@ inline constexpr uint32_t k_mesh_exponent_at = 20;
 inline constexpr uint32_t k_mesh_vertex_count_at = 24;
 inline constexpr uint32_t k_mesh_triangle_count_at = 28;
 inline constexpr uint32_t k_mesh_flags_at = 32;
-inline constexpr uint32_t k_mesh_low_at = 36;        ///< three int32: the least coordinates of the vertices
-inline constexpr uint32_t k_mesh_shift_at = 48;      ///< bounds of nodes are in 2^shift coordinate units from `low`
+inline constexpr uint32_t k_mesh_low_at = 36;  ///< three int32: the least coordinates of the vertices
+/// The bounds of nodes are stored relative to `low`, in units of 2^shift coordinate units.
+inline constexpr uint32_t k_mesh_shift_at = 48;
 inline constexpr uint32_t k_mesh_header_bytes = 64;  ///< zero from 52 on
 
 inline constexpr uint32_t k_mesh_one_sided = 1;  ///< a bit of the flags
 inline constexpr uint32_t k_mesh_triangles_max = 1u << 20;
 inline constexpr uint32_t k_mesh_vertices_max = 3 * k_mesh_triangles_max;
 inline constexpr uint32_t k_mesh_vertex_bytes = 12;
-/// Three words of vertices and three of neighbours: a 24-bit index, and 8 upper bits for the material or edge kind.
+/// A triangle has six words: three vertices and three neighbours. A word is a 24-bit index, and in the upper 8 bits the
+/// material (first vertex) or the edge kind (neighbours).
 inline constexpr uint32_t k_mesh_triangle_bytes = 24;
-inline constexpr uint32_t k_mesh_index_mask = (1u << 24) - 1;  ///< all ones: no neighbour
+inline constexpr uint32_t k_mesh_index_mask = (1u << 24) - 1;  ///< the index with all bits set means: no neighbour
 inline constexpr uint32_t k_mesh_node_bytes = 12;              ///< uint16: low x, y, z, high x, y, z
 inline constexpr uint32_t k_mesh_leaf_triangles = 4;
 inline constexpr uint32_t k_mesh_levels_max = 19;
@@ -94,8 +96,8 @@ struct MeshView {
 /// The mesh at `bytes`. read_mesh() must have accepted them; this function checks nothing.
 MeshView mesh_view(const uint8_t* bytes);
 
-/// Computes what the file stores for a node: the bounds of its triangles, or of the nodes below, in 2^shift coordinate
-/// units from `low`.
+/// Computes the values that the file stores for a node: the bounds of its triangles (level 0) or of its child nodes, in
+/// units of 2^shift coordinate units, counted from `low`.
 void mesh_node(const MeshView& mesh, uint32_t level, uint32_t i, uint16_t (&node)[6]);
 
 /// Checks untrusted bytes. In an accepted mesh the indices are valid, neighbours are mutual, the edge kinds match the
@@ -108,7 +110,7 @@ void MeshView::walk(Meets&& meets, Visit&& visit) const {
   struct Entry {
     uint32_t level, node;
   };
-  Entry stack[k_mesh_levels_max + 1];  // at most one node per level waits: a second child
+  Entry stack[k_mesh_levels_max + 1];  // at most one node of each level waits: a second child
   uint32_t count = 0;
   stack[count++] = {level_count - 1, 0};
   while (count > 0) {

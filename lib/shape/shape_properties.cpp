@@ -17,7 +17,7 @@ constexpr Scaled k_scaled_pi = 3.14159265358979323846;
 
 bool is_size(Real value) { return value >= k_size_min && value <= k_size_max; }
 
-/// Whether a body can have this shape; no body can be a triangle.
+/// Whether a body can have this shape. A body cannot be a triangle.
 bool is_world_shape(ShapeType type) {
   return (type >= ShapeType::sphere && type <= ShapeType::hull) || type == ShapeType::terrain ||
          type == ShapeType::compound;
@@ -47,7 +47,7 @@ Scaled scaled_from_hull(const HullScaled& value) {
 
 Scaled square(Scaled value) { return multiply(value, value); }
 
-/// A size plus the rounding of the shape.
+/// A size of the core plus the rounding of the shape.
 Scaled grown(const BodyProperties& properties, Unit size) {
   const Scaled sharp = scaled_from(size);
   return properties.rounding == Unit(0.0) ? sharp : add(sharp, scaled_from(properties.rounding));

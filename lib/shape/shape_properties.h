@@ -11,9 +11,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The greatest inverse inertia (per unit mass). With it, sqrt(I / m) about an axis is at least 2^-7.5 of the body's
-/// unit of length: 5.5 mm for a rod of 1.6 m. For a thinner body, an impulse far off its axis would change the angular
-/// velocity so much that the sum of two bodies' changes would leave the range of Real.
+/// The greatest inverse inertia per unit mass. With this limit, sqrt(I / m) about any axis is at least 2^-7.5 of the
+/// body's unit of length: 5.5 mm for a rod of 1.6 m. For a thinner body, an impulse far off its axis would change the
+/// angular velocity so much that the sum of two bodies' changes would leave the range of Real.
 inline constexpr Scaled k_inverse_inertia_max = 0x1p15;
 
 /// The least size_exponent of a body.
@@ -56,8 +56,8 @@ Unit hull_radius(const HullView& hull, int32_t exponent);
 struct ShapeMeasure {
   Vec3<Real> size;       ///< as BodyProperties::size; of a hull: 0
   Real smallest;         ///< the least of its sizes and its rounding
-  Real bound;            ///< the greatest distance from the origin to a point of the shape without its rounding
-  int32_t exponent_min;  ///< the least size_exponent: of a hull or compound, that of its asset
+  Real bound;            ///< the greatest distance from the origin to a point of the shape without Shape::rounding
+  int32_t exponent_min;  ///< lower limit of size_exponent: of a hull or compound, the exponent of its asset
   Real thickness = 0.0;  ///< of a compound: the half thickness, kept in BodyProperties::rounding
 };
 
@@ -72,7 +72,7 @@ struct ShapeOps {
   void (*set_inverse_inertia)(BodyProperties& properties, const Vec3<Scaled>& squares, const AssetTable& assets);
 };
 
-/// Null if the shape is not linked.
+/// The functions of a shape type; null if the feature table lacks the shape.
 const ShapeOps* ops_of(const FeatureTable& features, ShapeType type);
 
 /// Fills shape, size_exponent, size, bounding_radius, rounding and asset of `properties`. A hull, terrain or compound
@@ -88,9 +88,10 @@ Scaled shape_volume(const BodyProperties& properties, const AssetTable& assets =
                     const FeatureTable& features = feature_table<Features::all>);
 
 /// Sets the inverse inertia (per unit mass), m (2^size_exponent)^2 / I, about the body's axes for uniform density. It
-/// depends on the sizes of the shape, relative to the unit of length, but not on the mass. 0 about a locked axis; at
-/// most k_inverse_inertia_max. Changes nothing for a half-space or a terrain.
-/// Relative error below 2^-24; for a hull the error of its file. Rounded shapes as in shape_volume().
+/// depends on the sizes of the shape, relative to the unit of length, but not on the mass. It is 0 about a locked axis,
+/// and at most k_inverse_inertia_max. Changes nothing for a half-space or a terrain.
+/// Relative error below 2^-24; for a hull or a compound, that of the values in its file. Rounded shapes are treated as
+/// in shape_volume().
 /// Source: the standard moments of the box, ball, cylinder, cone and half-ball.
 void set_inverse_inertia(BodyProperties& properties, const AssetTable& assets = {},
                          const FeatureTable& features = feature_table<Features::all>);
@@ -102,7 +103,7 @@ Real shape_extent(const BodyProperties& properties);
 /// Radius of the shape's round parts, in the body's unit of length. Ball, capsule and cylinder: the radius. Box, cone
 /// and hull: the rounding. Other shapes: 0.
 Unit round_radius(const BodyProperties& properties);
-/// The length, m, to which the margins of the shape's bounds are relative: shape_extent(), or 2^-8 of the bounding
+/// The length, m, of which the margin of the shape's bounds is a fraction: shape_extent(), or 2^-8 of the bounding
 /// radius for a terrain.
 Real bounds_extent(const BodyProperties& properties);
 

@@ -7,11 +7,12 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_half_turn_limit = 3.0;  ///< rad; for an estimate up to this, the shortest rotation is the nearest one
+/// An angle, rad. If the estimate is not longer than this, the shortest rotation vector is the nearest one.
+constexpr Real k_half_turn_limit = 3.0;
 constexpr int32_t k_turns_max = 1 << 14;
 
-/// The nearest integer to a / b for b > 0, clamped to +-k_turns_max. Binary long division: it needs no conversion to
-/// integers.
+/// The nearest integer to a / b for b > 0, clamped to +-k_turns_max. Uses binary long division, which needs no
+/// conversion to integers.
 int32_t nearest_multiple(Real a, Real b) {
   const bool negative = a < Real(0.0);
   Real rest = abs(a) + scale_by_power(b, -1);
@@ -50,7 +51,8 @@ Sweep sweep_between(const Quat& start, const Quat& end, const Vec3<Real>& displa
     if (normalise(rotation_vector, axis, angle) && angle > Real(0x1p-10)) {
       const int32_t turns = nearest_multiple(dot(angle_estimate, axis) - angle, k_two_pi);
       rotation_vector = rotation_vector + axis * multiple(k_two_pi, turns);
-    } else if (normalise(angle_estimate, axis, angle)) {  // full revolutions only: use the estimate's axis
+      // Full revolutions only: `rotation_vector` is too short to give an axis.
+    } else if (normalise(angle_estimate, axis, angle)) {
       rotation_vector = rotation_vector + axis * multiple(k_two_pi, nearest_multiple(angle, k_two_pi));
     }
   }
@@ -66,8 +68,8 @@ Quat sweep_end_rotation(const Quat& start, const Sweep& sweep) {
 #if defined(DETENT_FX32)
 namespace {
 
-/// Adds d to coordinate + remainder and splits the sum again. The coordinate is the floor, so the remainder is never
-/// negative.
+/// Adds `d`, m, to coordinate + remainder, and splits the sum again. The coordinate is rounded down, so the remainder
+/// is never negative. Returns whether the coordinate was clamped.
 bool advance(Coord& coordinate, uint16_t& remainder, Real d) {
   const int64_t from = static_cast<int64_t>(coordinate.raw) * 65536 + remainder;  // 2^-32 m
   const int64_t to = from + ((d.raw + (int64_t{1} << 13)) >> 14);
@@ -109,7 +111,8 @@ Real part_of(Real whole, Fraction part) { return whole * float_from_integer<Real
 namespace {
 
 #if defined(DETENT_F32)
-/// Computes whole * part exactly: over a long displacement, the error of a float exceeds the resolution of positions.
+/// Adds whole * part, m, to the coordinate. Computes this product exactly, because for a long displacement the error of
+/// a float product exceeds the resolution of positions. Returns whether the coordinate was clamped.
 bool advance_part(Coord& coordinate, Real whole, Fraction part) {
   constexpr int k_bits = 46;
   bool saturated = false;

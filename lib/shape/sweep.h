@@ -5,8 +5,8 @@
 #include "math/arithmetic.h"
 #include "math/rotation.h"
 
-/// The motion of a body in a step, defined only here: constant velocity and constant angular velocity in world axes
-/// from the start pose. The substeps only determine the sweep. Intermediate and final poses are computed from the
+/// The motion of a body in a step: constant velocity and constant angular velocity in world axes from the start pose.
+/// Only this file defines it. The substeps only determine the sweep. Intermediate and final poses are computed from the
 /// sweep, so what is proved for the sweep holds for the simulated motion.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -29,23 +29,24 @@ struct Sweep {
 Sweep sweep_between(const Quat& start, const Quat& end, const Vec3<Real>& displacement,
                     const Vec3<Real>& angle_estimate);
 
-/// Rotation at the end of the sweep from `start`. Error (fixed): 2^-28 in each component. Unit length within 2^-29.
+/// Rotation at the end of the sweep from `start`. Error in fixed point: 2^-28 in each component. The result has unit
+/// length within 2^-29.
 Quat sweep_end_rotation(const Quat& start, const Sweep& sweep);
 
-/// Moves a position to the end of the sweep, rounded to nearest. fx32 keeps the rounding remainder in the pose.
+/// Moves a position to the end of the sweep, rounded to nearest. In fx32 the pose keeps the remainder of the rounding.
 /// Returns the number of components that were clamped to Coord's range.
 uint32_t sweep_end_position(BodyPose& pose, const Sweep& sweep);
 
-/// The fraction `part` of a number. Rounding: to nearest.
+/// `whole` times `part`, rounded to nearest.
 Real part_of(Real whole, Fraction part);
 Vec3<Real> part_of(const Vec3<Real>& whole, Fraction part);
 
-/// The motion up to the fraction `part` of the step. For the whole step it is the sweep itself, bit for bit.
-/// Rounding: to nearest.
+/// The part of the sweep up to the fraction `part` of the step, rounded to nearest. For the whole step, this is the
+/// sweep itself, bit for bit.
 Sweep sweep_part(const Sweep& sweep, Fraction part);
 
-/// Moves a pose along the sweep up to the fraction `part` of the step. time_of_impact() uses the same pose at that
-/// time, except for the rounding of a pose. Returns the number of components that were clamped to Coord's range.
+/// Moves a pose along the sweep up to the fraction `part` of the step. At the same fraction, time_of_impact() uses this
+/// pose, except for the rounding of the pose. Returns the number of components that were clamped to Coord's range.
 uint32_t advance_along(const Sweep& sweep, Fraction part, BodyPose& pose);
 
 /// a b, rounded down. Range: a and b in [0, 1].

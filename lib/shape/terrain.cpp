@@ -6,7 +6,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The position of the byte of the magic in which the two formats differ.
+/// The position of the byte in which the magics of meshes and of height fields differ.
 constexpr uint32_t k_letter_at = 3;
 
 }  // namespace
@@ -16,7 +16,7 @@ Vec32 normal_of(const Vec32& a, const Vec32& b, const Vec32& c) {
 }
 
 EdgeKind edge_kind(const Vec32& a, const Vec32& b, const Vec32& c, const Vec32& d) {
-  // 1 - angle^2 / 2, Q60; a normal errs by less than 2^-28.
+  // The cosine of k_flat_angle, computed as 1 - angle^2 / 2, Q60. The error of a normal is below 2^-28.
   constexpr int64_t k_flat_cosine = (int64_t{1} << 60) - (int64_t{1} << 47);
   if (dot(normal_of(a, b, c), normal_of(b, a, d)) >= k_flat_cosine) return EdgeKind::flat;
   return sign_of(dot(area_vector(a, b, c), subtract(d, a))) > 0 ? EdgeKind::concave : EdgeKind::convex;

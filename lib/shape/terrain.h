@@ -29,7 +29,8 @@ struct Terrain {
 /// The terrain at `bytes`. read_terrain() must have accepted them; this function checks nothing.
 Terrain terrain_view(const uint8_t* bytes);
 
-/// Returns terrain.triangle(index), for callers that must not link the readers of the formats.
+/// Returns terrain.triangle(index). Callers that must not link the readers of the formats call it through the feature
+/// table.
 TerrainTriangle terrain_triangle(const Terrain& terrain, uint32_t index);
 
 /// Checks untrusted bytes. Errors: as read_mesh(); not_detent if they are neither a mesh nor a height field.

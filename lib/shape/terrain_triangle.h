@@ -1,9 +1,9 @@
 #pragma once
 #include "math/vector_integer.h"
 
-/// The parts that meshes and height fields have in common: triangles with integer coordinates, in 2^-30 of the
-/// terrain's unit of length, |coordinate| < 2^30. So differences of corners fit in 32 bits, and their cross products in
-/// 64 bits.
+/// The parts that meshes and height fields have in common: triangles with integer coordinates. A coordinate is in 2^-30
+/// of the terrain's unit of length, and less than 2^30 in magnitude. So differences of corners fit in 32 bits, and
+/// their cross products in 64 bits.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -13,16 +13,17 @@ inline constexpr int32_t k_terrain_coordinate_max = (1 << 30) - 1;
 
 /// How the neighbouring triangle continues beyond an edge. Values are stored in files and never reused.
 enum class EdgeKind : uint8_t {
-  flat = 0,     ///< within k_flat_angle: bodies cannot catch on the edge
-  convex = 1,   ///< seen from the side that sees the corners counter-clockwise
-  concave = 2,  ///< seen from the same side
+  flat = 0,     ///< the normals differ by at most k_flat_angle: no body can catch on the edge
+  convex = 1,   ///< a ridge, seen from the side from which the corners are counter-clockwise
+  concave = 2,  ///< a valley, seen from the same side
   open = 3,     ///< no neighbour
 };
 inline constexpr double k_flat_angle = 0x1p-6;  ///< rad
 
 inline constexpr uint32_t k_no_triangle = UINT32_MAX;
 
-/// Edge k runs from corner k to the next corner; the neighbour has this edge in the opposite direction.
+/// A triangle of a terrain. Edge k runs from corner k to the next corner; the neighbour has this edge in the opposite
+/// direction.
 struct TerrainTriangle {
   Vec32 corner[3];
   uint32_t neighbour[3];  ///< k_no_triangle beyond an open edge

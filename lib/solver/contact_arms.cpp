@@ -9,7 +9,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Unit k_arm_rotation_max = 0.25;  ///< rad
+constexpr Unit k_arm_rotation_max = 0.25;  ///< limit of the rotation of the points, rad
 /// The squared sine of the angle between an axis and the normal below which a cylinder or cone stands on its base.
 constexpr Unit k_least_lean = 0x1p-12;
 
@@ -39,7 +39,7 @@ Unit rotation_of_points(const RowBody& body, const Vec3<Unit>& normal, Real time
   return unit_from_real(clamp(about_normal, -most, most), 0);
 }
 
-/// Moves the arms between a dynamic body and another body.
+/// Does the work of advance_arms() for a dynamic body and a body that is not dynamic.
 Unit advance(const RowBody& dynamic, const RowBody& other, const Vec3<Unit>& normal, Real time, Vec3<Unit>& arm,
              Vec3<Unit>& other_arm) {
   const Unit angle = rotation_of_points(dynamic, normal, time);

@@ -28,7 +28,8 @@ uint16_t kind_of(const ContactWork& contact) {
   return static_cast<uint16_t>(contact.state.point_count | contact.angular_rows << k_rows_shift);
 }
 
-/// Takes the lowest colour that is free at both bodies and returns it. Returns k_colour_overflow if there is none.
+/// Returns the lowest colour that is free at both bodies, and marks it as taken. Returns k_colour_overflow if no colour
+/// is free.
 uint16_t take_colour(Span<const BodyProperties> properties, const ContactState& contact, Span<BodyWork> work) {
   const bool colours_a = is_dynamic(properties[contact.body_a]), colours_b = is_dynamic(properties[contact.body_b]);
   uint64_t taken = k_has_near;
@@ -48,7 +49,8 @@ uint32_t kind_of(const Island& island) {
   return island.joint_count != 0 ? 255 : 2 * island.substeps + (island.contact_count != 0 ? 1 : 0);
 }
 
-/// Copies contacts from `from` to `to`, to the places of their islands. Keeps the order within an island.
+/// Copies the contacts from number `first` of `from` on to `to`, to the ranges of their islands. Keeps their order
+/// within an island.
 void copy_by_island(Span<const Island> islands, Span<BodyWork> work, Span<const ContactOrder> from,
                     Span<ContactOrder> to, uint32_t first) {
   for (uint32_t i = 0; i < islands.count; ++i) work[i].run = islands[i].first_contact;
@@ -58,7 +60,7 @@ void copy_by_island(Span<const Island> islands, Span<BodyWork> work, Span<const 
 /// Orders the contacts of one island. Returns the number of contacts that found no free colour.
 uint32_t order_island(Span<const BodyProperties> properties, Span<const ContactWork> contacts, Span<BodyWork> work,
                       Span<ContactOrder> spare, Span<ContactOrder> order) {
-  // The digits before k_kind are those of the key; the last digit is the colour.
+  // Digits of the sort: from 0 on those of the key, then the kind (k_kind), last the colour.
   constexpr int k_kind = 4, k_digits = 6;
   const auto sort_by = [&](int first, int end) {
     const auto digit_of = [first](const ContactOrder& entry, int digit) {

@@ -7,14 +7,14 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The colour of the contacts that found no free colour at their bodies. Two contacts of the same colour share no
-/// dynamic body, except contacts of this colour.
+/// The colour of contacts for which no colour was free at their bodies. Two contacts that have the same other colour
+/// share no dynamic body.
 inline constexpr uint16_t k_colour_overflow = 63;
 
 /// The parts of ContactOrder::kind. The lowest bits (k_point_mask) are the number of points. The number of angular rows
-/// begins at the bit k_rows_shift. The upper byte (k_group_shift) tells whether the contact is in a group of contacts
-/// that are solved at once: 0 if it is solved alone; for the first contact of a group the number of contacts in the
-/// group, 2 to 8; for its other contacts k_in_group.
+/// begins at bit number k_rows_shift. The upper byte (k_group_shift) tells whether the contact is in a group of
+/// contacts that are solved at once: 0 if it is solved alone; for the first contact of a group the number of contacts
+/// in the group, 2 to 8; for its other contacts k_in_group.
 inline constexpr uint32_t k_point_mask = 7;
 inline constexpr int k_rows_shift = 3, k_group_shift = 8;
 inline constexpr uint32_t k_in_group = 1;
@@ -34,8 +34,8 @@ uint32_t order_contacts(Team* team, Span<const BodyProperties> properties, Span<
 
 /// Sorts the islands, so that islands which may be solved together follow each other: islands without joints and with
 /// the same number of substeps. The contacts of such a group are sorted together, by colour first, so that several
-/// contacts can be solved at once even if the islands are small. The solve gives the same bits as without this sort,
-/// because islands share no dynamic body.
+/// contacts can be solved at once even if the islands are small. The sort changes no bit of the solve, because islands
+/// share no dynamic body.
 ///
 /// Input: the results of find_islands() and order_contacts(), and the islands' numbers of substeps; `slots` as in
 /// find_islands(). Renumbers the islands. In a group of islands that are solved together, the range of contacts of a

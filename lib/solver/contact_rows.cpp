@@ -13,8 +13,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The exponent for mantissas of values up to `value`, such that a sum of four mantissas fits: at most 19, because of
-/// the range of Real. Always 0 in float.
+/// The exponent of mantissas for values up to `value`, such that a sum of four mantissas fits. It is at most 19,
+/// because of the range of Real, and always 0 in float.
 int32_t exponent_for(Real value) { return DETENT_FIXED ? exponent_above(value) + 2 : 0; }
 
 #if DETENT_FIXED
@@ -92,8 +92,8 @@ PairResponse respond(const WorldInverseInertia& a, const WorldInverseInertia& b,
   return response;
 }
 
-/// Effective mass 1 / K divided by the reference mass. `response` is K times the reference mass. It is at least 1,
-/// except for rounding, because the relative inverse mass of the lighter body is 1.
+/// Effective mass 1 / K divided by the reference mass. `response` is K times the reference mass. A response is at least
+/// 1, except for rounding, because the relative inverse mass of the lighter body is 1.
 Unit mass_of(Real response) {
   if (!(response > Real(1.0))) return 1.0;
 #if DETENT_FIXED
@@ -121,8 +121,8 @@ Real greatest_response(const PairResponse& response, Part i) {
 }
 
 /// Computes the matrix K that couples the normal rows of a contact's points, and the effective mass 1 / K_ii of each
-/// point. Row i is j_i = (1, y_i, -x_i). It acts on the parts of a wrench at the contact's middle: the force along the
-/// normal and the torques about the first and the second tangent. With the response R to such wrenches,
+/// point. A unit impulse of row i is the wrench j_i = (1, y_i, -x_i) at the middle of the points: an impulse along the
+/// normal, and angular impulses about the first and the second tangent. With the response R to these parts of a wrench,
 /// K_ik = j_i R j_k^T.
 void couple(const PairResponse& response, ContactWork& work) {
   const auto part = [&](Part i, Part k) { return response.part[response_index(i, k)]; };
@@ -177,7 +177,7 @@ Scaled pair_restitution(const BodyProperties& a, const BodyProperties& b) {
   return less(a.restitution, b.restitution) == smaller ? a.restitution : b.restitution;
 }
 
-/// Sets the relative inverse masses: the reference mass over the mass of each body; 0 if it is not dynamic.
+/// Sets the relative inverse masses: the reference mass over the mass of the body; 0 for a body that is not dynamic.
 void share_mass(const BodyProperties& a, const BodyProperties& b, ContactWork& work) {
   const Scaled none = 0.0, one = 1.0;
   const bool dynamic_a = is_dynamic(a), dynamic_b = is_dynamic(b);
@@ -212,9 +212,9 @@ Real gravity_along(const StepSettings& settings, const BodyProperties& body, con
   return body.gravity_scale == Scaled(1.0) ? whole : multiply(whole, body.gravity_scale, saturated);
 }
 
-/// The normal velocity of an approaching point at the time of touch: -sqrt(v^2 - 2 pull s). v (`velocity`) < 0 is its
-/// normal velocity now, m/s, s (`separation`) the gap, m, `pull` < 0 the relative acceleration along the normal, m/s^2.
-/// With this value, a ball with restitution 1 bounces to the height from which it fell.
+/// The normal velocity that an approaching point will have when it touches: -sqrt(v^2 - 2 pull s). v (`velocity`) < 0
+/// is its current normal velocity, m/s; s (`separation`) is the gap, m; `pull` < 0 is the relative acceleration along
+/// the normal, m/s^2. With this value, a ball with restitution 1 bounces to the height from which it fell.
 Real approach_at_touch(Real velocity, Real separation, Real pull) {
   // Above 256 m/s the acceleration over a gap is negligible, and squares leave the range of Real.
   const Real zero = 0.0, fast = 256.0;
@@ -223,14 +223,15 @@ Real approach_at_touch(Real velocity, Real separation, Real pull) {
   return -square_root(velocity * velocity - gain);
 }
 
-/// How much the gap of two round bodies grows in a tick, m, because the contact normal rotates while they slide past
-/// each other. Returns s^2 / D. s is the relative tangential displacement of the centres of curvature in the tick; D is
-/// the distance of these centres. s^2 / D is twice the second-order term of the gap. Without this growth, the solver
-/// would stop bodies that only pass each other, because it uses the normal at the start of the tick.
+/// The growth, m, of the gap of two round bodies in a tick, because the contact normal rotates while they slide past
+/// each other. Returns s^2 / D, twice the second-order term of the gap. s is the relative tangential displacement of
+/// the centres of curvature in the tick; D is the distance of these centres. Without this growth, the solver would stop
+/// bodies that only pass each other, because it uses the normal at the start of the tick.
 __attribute__((noinline)) Real parted_by_sliding(const StepSettings& settings, const RowBody& a, const RowBody& b,
                                                  const Vec3<Unit>& normal, const ContactGeometryPoint& point) {
   const Unit round_a = round_radius(a.properties), round_b = round_radius(b.properties);
-  // The velocity of the centre of curvature. `away`: from the other body. The arms end in the middle of the gap.
+  // The velocity of a body's centre of curvature. `away`: direction from the other body to this body. `arm` ends in the
+  // middle of the gap.
   const auto velocity_of = [&](const RowBody& body, const Vec3<Unit>& arm, const Vec3<Unit>& away, Unit round) {
     const int unit = body.properties.size_exponent;
     const Real half_gap = min(scale_by_power(point.separation, -1), real_from_unit(Unit(1.0), unit));
@@ -242,7 +243,7 @@ __attribute__((noinline)) Real parted_by_sliding(const StepSettings& settings, c
   const Vec3<Real> across = velocity - normal * dot(velocity, normal);
   const Real distance = real_from_unit(round_a, a.properties.size_exponent) +
                         real_from_unit(round_b, b.properties.size_exponent) + point.separation;
-  // At most 16 D, so that the result fits a Real.
+  // The displacement is limited to 16 D, so that the result fits a Real.
   const Real displacement = min(length(across) * settings.tick_time, scale_by_power(distance, 4));
   return displacement * divide(displacement, distance);
 }

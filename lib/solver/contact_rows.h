@@ -25,8 +25,8 @@ struct RowBody {
 
 /// Fills the rows of `work` from the geometry: arms, responses, effective masses, limits, and the approach speeds at
 /// the start of the tick. `work.state` must be set before the call; its impulses are converted to the contact's frame.
-/// `ahead`: the arms are those at this time, s, after the geometry, see advance_arms(). The solver passes half a tick:
-/// arms in the middle of the tick make its errors of second order.
+/// `ahead`: the time, s, after that of the geometry for which the arms are computed (advance_arms()). The solver passes
+/// half a tick, because arms of the middle of the tick make its errors of second order.
 ///
 /// With n the normal from A to B, t and s the tangents, r_A and r_B the arms from the centres, v and w the velocities
 /// and angular velocities, u the pair's unit of length, and columns (v_A, w_A, v_B, w_B), the rows are:
@@ -43,8 +43,9 @@ struct RowBody {
 ///
 /// All K are stored times the reference mass m, the mass of the lighter dynamic body: `coupling` has the K of the
 /// normal rows of each pair of points, `response` the K of the parts of a wrench at the middle of the points. The
-/// effective masses `normal_mass` and `twist_mass` are 1 / (m K), with the K of a row with itself. `friction_mass` and
-/// `rolling_mass` are those of a pair of rows: 1 / (m k), with the greatest eigenvalue k of their 2 x 2 matrix K.
+/// effective masses `normal_mass` and `twist_mass` are 1 / (m K), where K is the diagonal element of the row.
+/// `friction_mass` and `rolling_mass` each belong to a pair of rows: 1 / (m k), where k is the greatest eigenvalue of
+/// their 2 x 2 matrix K.
 /// The solver accumulates the impulse of each row, within these limits:
 ///
 ///     normal:   impulse >= 0
@@ -58,14 +59,14 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
                Real ahead, ContactWork& work);
 
 /// Leaves the impact of a contact to continuous collision, if the contact's bodies do not overlap and approach so fast
-/// that they will rebound. For this, the function disables the normal rows of the contact: it sets their effective
-/// masses to zero. The reason: the solver would distribute the impulse among all bodies in contact, while continuous
+/// that they will rebound. To do so, the function disables the normal rows of the contact: it sets their effective
+/// masses to zero. The solver would distribute the impulse of the impact among all bodies in contact, while continuous
 /// collision resolves impacts one after the other.
 void leave_to_impact(const StepSettings& settings, const RowBody& a, const RowBody& b, ContactWork& work);
 inline bool is_left_to_impact(const ContactWork& work) { return work.normal_mass[0] == Unit(0.0); }
 
-/// Recomputes the responses and effective masses for the current inverse inertias of A and B. The other members stay
-/// unchanged.
+/// Recomputes the responses, couplings and effective masses of `work` for the inverse inertias `a` and `b` of its
+/// bodies. The other members stay unchanged.
 void renew_response(const WorldInverseInertia& a, const WorldInverseInertia& b, ContactWork& work);
 
 /// The matrix K of a contact times the reference mass: the change of the bodies' relative motion by a unit wrench at

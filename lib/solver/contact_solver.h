@@ -10,13 +10,13 @@ inline namespace DETENT_NAMESPACE {
 inline constexpr int k_arrival_power = -9;
 /// Largest number of rounds of block pivoting in solve_rows().
 inline constexpr int k_pivot_rounds = 6;
-/// Number of solves of a rebound. Each leaves 1/33 of the error, because of k_rigid_softness (1/32).
+/// Number of solves of a rebound. Each solve leaves 1/33 of the error, because of k_rigid_softness (1/32).
 inline constexpr uint32_t k_rebound_rounds = 5;
 /// Softness of a row that is not a spring, as a fraction of the row's diagonal element of K. Without it, the impulses
 /// of redundant points would be indefinite.
 inline constexpr Unit k_rigid_softness = 1.0 / 32;
 
-/// A change of an impulse times the relaxation factor of SOR.
+/// The change of an impulse, multiplied by the relaxation factor of SOR.
 template <class Kind>
 inline typename Kind::Number relaxed(typename Kind::Number change, Unit relaxation) {
   return relaxation == Unit(1.0) ? change : typename Kind::Number(times(held(change), Kind::unit(relaxation)));
@@ -34,12 +34,12 @@ struct Normals {
   const uint32_t count;
   /// Normal velocity of each point, updated with each impulse.
   typename Kind::Sum velocity[k_manifold_points_max];
-  Number impulse[k_manifold_points_max];  ///< accumulated normal impulses, updated with each change; factors
+  Number impulse[k_manifold_points_max];  ///< accumulated normal impulses, updated with each change; they are factors
   Number added[k_manifold_points_max];
   // Input of solve_rows().
-  Factor wanted[k_manifold_points_max];    ///< speed minus the target; to be set
-  Factor softness[k_manifold_points_max];  ///< mantissas of the coupling
-  Mask may[k_manifold_points_max];         ///< whether the impulse may change
+  Factor wanted[k_manifold_points_max];    ///< speed of each row minus its target; the caller sets it
+  Factor softness[k_manifold_points_max];  ///< softness of each row, as a mantissa like those of the coupling
+  Mask may[k_manifold_points_max];         ///< whether the impulse of each row may change
 
   Normals(const typename Kind::Contact& of_pair, const typename Kind::Block& block, const NormalMotion<Kind>& motion)
       : contact(of_pair), count(of_pair.state.point_count) {
@@ -124,7 +124,7 @@ struct Normals {
     DETENT_UNROLL
     for (uint32_t k = 0; k < k_manifold_points_max; ++k) velocity[k] += product(more, contact.coupling[i][k]);
   }
-  /// wanted + K change of point i.
+  /// Element i of wanted + K change.
   Number residual(uint32_t i, const Factor (&change)[k_manifold_points_max]) const {
     typename Kind::Sum sum = sum_from(Number(wanted[i]), contact.coupling_exponent);
     DETENT_UNROLL
@@ -141,7 +141,7 @@ struct Normals {
     }
     Factor side[k_manifold_points_max];
     Factor lower[k_manifold_points_max][k_manifold_points_max];  // L
-    Factor inverse[k_manifold_points_max];                       // of D
+    Factor inverse[k_manifold_points_max];                       // 1 / D
     DETENT_UNROLL
     for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
       if (i >= count) break;
@@ -274,7 +274,7 @@ struct ContactSolver {
       apart[i] = separation > none;
       const Factor overlap = held(separation + min(Factor(held(separation + deep)), none));
       const Factor length = select(apart[i], separation, Factor(held(times(overlap, soft.rate))));
-      // A speed times 2^-rate_exponent, as a number of the block of `moved`.
+      // A speed divided by 2^rate_exponent, as a number of the block of `moved`.
       push[i] = select(Kind::has_point(contact, i), held(times(length, Kind::unit(settings.rate_mantissa))), none);
       least = min(least, push[i]);
     }
@@ -307,8 +307,8 @@ struct ContactSolver {
     apply_normal<Kind>(contact, block, along, about_first, about_second, a, b);
   }
 
-  /// Relaxation: removes the speed that the springs have added, with the target J v = 0 for points in contact, then
-  /// solves friction.
+  /// Relaxation: solves the normal rows of points in contact with the target J v = 0, which removes the speed that the
+  /// springs have added. Then solves friction.
   void relax() {
     typename Kind::Block room;
     include_impulses(room);
@@ -338,8 +338,8 @@ struct ContactSolver {
 
   /// Applies Newton's law of impact (restitution) to the points that approached faster than ContactWork::rebound_min
   /// and had a normal impulse in this tick. Points that rebound together share the impulse: an impulse at a single
-  /// point would rotate the body into the other points. Then the friction of these impulses, which adds to that of the
-  /// load.
+  /// point would rotate the body into the other points. Then applies the friction of these impulses, in addition to the
+  /// friction of the load.
   void rebound() {
     if (!is_positive(contact.restitution)) return;
     const uint32_t count = contact.state.point_count;
@@ -363,7 +363,8 @@ struct ContactSolver {
       normals.solve_rows(Unit(1.0));
     }
     act_along_normal(normals, sliding);
-    // Points that part too fast lose impulse. Such a loss has no friction.
+    // Points that part faster than their target lose impulse. If the contact loses impulse as a whole, it gets no
+    // friction.
     const Factor gained = max(held(sliding.wrench[k_along_normal]), Kind::zero());
     typename Kind::Real friction[2] = {Real(0.0), Real(0.0)};
     stop_in_circle(k_along_first, friction, contact.friction_mass, times(gained, contact.friction), sliding);
@@ -407,8 +408,8 @@ struct ContactSolver {
     return held(sliding.block.number(impulse) -
                 relaxed<Kind>(times(held(sliding.part[by]), mass), settings.relaxation));
   }
-  /// Stops two parts of the motion, with accumulated impulses limited to a circle. One effective mass for both makes
-  /// the impulse of a sliding contact oppose its velocity.
+  /// Stops two parts of the motion. The vector of their accumulated impulses is limited to the circle of radius
+  /// `radius`. Because both parts have the same effective mass, the impulse of a sliding contact opposes its velocity.
   template <class Mass>
   DETENT_SPECIALISED void stop_in_circle(Part first, typename Kind::Real* impulse, const Mass& mass, Factor radius,
                                          Sliding<Kind>& sliding) {

@@ -16,8 +16,8 @@ uint32_t first_of(Span<BodyWork> work, uint32_t BodyWork::*link, uint32_t body) 
   return body;
 }
 
-/// Joins the sets of `a` and `b`. The first body of the joined set is the lower of the two first bodies. Returns false
-/// if both are in one set already.
+/// Joins the sets of `a` and `b`. Sets `first` to the first body of the joined set, which is the lower of the two first
+/// bodies, and `other` to the higher one. Returns false if both bodies were in one set already.
 bool join(Span<BodyWork> work, uint32_t BodyWork::*link, uint32_t a, uint32_t b, uint32_t& first, uint32_t& other) {
   a = first_of(work, link, a);
   b = first_of(work, link, b);
@@ -56,8 +56,8 @@ uint32_t find_islands(Span<const uint32_t> slots, Span<const BodyProperties> pro
     if (a.mobile != 0 && b.mobile != 0) join(work, &BodyWork::island, a.slot, b.slot, first, other);
   }
 
-  // Links every body directly to the first body of its set. The next loop visits the first body of a set before the
-  // others, which then take over its island number.
+  // Links every body directly to the first body of its set. The next loop visits the first body of a set before its
+  // other bodies, which then take over the island number of the first.
   for (const uint32_t slot : slots) {
     work[slot].island = first_of(work, &BodyWork::island, slot);
     work[slot].run_length = work[first_of(work, &BodyWork::run, slot)].run_length;

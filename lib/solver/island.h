@@ -13,7 +13,7 @@ inline namespace DETENT_NAMESPACE {
 ///
 /// Sets `island`, `run`, `run_length` and `contacts` of `work` for `slots`. Fills `bodies` with the slots, island by
 /// island, and ascending within each island. Islands are in the order of their first slots. Also counts the contacts of
-/// each island, and sets its range in the order of the solve. Returns the number of islands.
+/// each island, and sets the island's range in the order of the solve. Returns the number of islands.
 ///
 /// A *run* is a set of dynamic bodies that contacts connect, each with at most two contacts, for example a tower.
 uint32_t find_islands(Span<const uint32_t> slots, Span<const BodyProperties> properties,

@@ -9,7 +9,7 @@ inline namespace DETENT_NAMESPACE {
 
 using LaneFourWords = LaneInt32<4>;
 
-/// One value for each lane: make(lane).
+/// One value for each lane, returned by make(lane).
 template <class T, uint32_t count>
 struct EachLane {
   T of[count];
@@ -21,8 +21,8 @@ struct EachLane {
   }
 };
 
-/// Picks the words a, b, c and d of each 128 bits of two registers: 0 to 3 are the words of the first register, 4 to 7
-/// those of the second.
+/// Makes a register of the words a, b, c and d of two registers, separately in each 128 bits: 0 to 3 select words of
+/// the first register, 4 to 7 words of the second.
 template <int a, int b, int c, int d, class Row>
 DETENT_LANES_INLINE Row picked(Row first, Row second) {
   if constexpr (sizeof(Row) == 16) {
@@ -157,7 +157,7 @@ struct LaneWords {
     }
   }
 #if DETENT_FIXED
-  /// Units of at most 24 bits, times 2^exponent.
+  /// The word `i` of each array as a Unit of at most 24 bits, multiplied by 2^exponent.
   DETENT_LANES_INLINE LaneUnits<count> unit(uint32_t i, LaneInt32<count> exponent = LaneInt32<count>{}) const {
     return {__builtin_convertvector(word[i], LaneSingle) * single_power(exponent - k_unit_frac)};
   }
@@ -168,8 +168,8 @@ struct LaneWords {
   }
   /// 2^exponent.
   DETENT_LANES_INLINE static LaneUnits<count> power(LaneInt32<count> exponent) { return {single_power(exponent)}; }
-  /// A Scaled by which a factor is multiplied. The exponent is clamped: factors are integers below 2^26, so an exponent
-  /// beyond a limit gives the same results as the limit.
+  /// The words `i` and `i` + 1 of each array as a Scaled by which a factor is multiplied. The exponent is clamped:
+  /// factors are integers below 2^26, so an exponent beyond a limit gives the same results as the limit.
   DETENT_LANES_INLINE LaneScaled<count> scaled(uint32_t i) const {
     const LaneInt32<count> least = LaneInt32<count>{} - 100, most = LaneInt32<count>{} + 40;
     LaneInt32<count> exponent = word[i + 1] < least ? least : word[i + 1];

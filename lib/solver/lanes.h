@@ -4,7 +4,7 @@
 
 /// Lanes: registers that hold one number of each of four or eight contacts. The operations of block.h are applied to
 /// each lane, and give the same bits as for a single contact. Only for files that are compiled for processors with
-/// registers of 256 bits.
+/// vector registers: of 256 bits on x86-64, of at least 128 bits elsewhere.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -131,7 +131,8 @@ struct LaneTypes {
   friend DETENT_LANES_INLINE LaneMask operator!(LaneMask a) { return {~a.v}; }
   friend DETENT_LANES_INLINE LaneMask operator|(LaneMask a, LaneMask b) { return {a.v | b.v}; }
 
-// In each lane: b > a ? b : a, and so on. The compiler finds these instructions only where it may forget NaN and -0.
+// max() returns b > a ? b : a in each lane, min() a > b ? b : a. The compiler uses these instructions by itself only if
+// it may ignore NaN and -0.
 #if defined(__AVX2__) && DETENT_FIXED
   friend DETENT_LANES_INLINE Lanes select(LaneMask mask, Lanes a, Lanes b) {
     return {__builtin_ia32_blendvpd256(b.v, a.v, reinterpret_cast<LaneFloat>(mask.v))};
@@ -176,7 +177,7 @@ struct LaneTypes {
   friend DETENT_LANES_INLINE LaneReals& operator-=(LaneReals& a, LaneReals b) { return a = a - b; }
   friend DETENT_LANES_INLINE LaneReals max(LaneReals a, LaneReals b) { return {b.v > a.v ? b.v : a.v}; }
 
-  /// Conversions of integers. Range: |value| < 2^51.
+  /// Conversions of integers between doubles and 64-bit words. Range: |value| < 2^51.
   DETENT_LANES_INLINE static Lanes number_from(LaneInt64 value) {
     const LaneFloat base = lanes_of(0x1.8p52).v;
     return {reinterpret_cast<LaneFloat>(value + reinterpret_cast<LaneInt64>(base)) - base};
@@ -185,7 +186,7 @@ struct LaneTypes {
     const LaneFloat base = lanes_of(0x1.8p52).v;
     return reinterpret_cast<LaneInt64>(value.v + base) - reinterpret_cast<LaneInt64>(base);
   }
-  /// Products of integers of 32 bits.
+  /// Products of the low 32 bits of each lane of a and b, as signed integers.
   DETENT_LANES_INLINE static LaneInt64 multiplied(LaneInt64 a, LaneInt64 b) {
     using Words = LaneVectors<8>::Int32;
     return reinterpret_cast<LaneInt64>(
@@ -238,10 +239,11 @@ struct LaneTypes {
   friend DETENT_LANES_INLINE Lanes operator-(LaneProduct a, LaneProduct b) { return Lanes(a) - b; }
   friend DETENT_LANES_INLINE Lanes& operator+=(Lanes& a, LaneProduct b) { return a = a + b; }
   friend DETENT_LANES_INLINE Lanes& operator-=(Lanes& a, LaneProduct b) { return a = a - b; }
-  /// Rounds to an integer: to nearest, ties up.
+  /// Rounds down to an integer.
   friend DETENT_LANES_INLINE Lanes rounded_down(Lanes sum) {
     return {__builtin_ia32_roundpd256(sum.v, 9)};  // without exceptions
   }
+  /// Rounds to an integer: to nearest, ties up.
   friend DETENT_LANES_INLINE Lanes rounded(Lanes sum) { return rounded_down(sum + lanes_of(0.5)); }
   friend DETENT_LANES_INLINE Lanes rounded(LaneProduct a) { return rounded_down(lanes_of(0.5) + a); }
   friend DETENT_LANES_INLINE Lanes whole(Lanes a) { return a; }
@@ -256,7 +258,7 @@ struct LaneTypes {
     DETENT_LANES_INLINE void include(const Vec3<LaneReals>& v, int exponent) {
       include_bits(magnitude(v.x) | magnitude(v.y) | magnitude(v.z), k_angular_velocity_power - exponent);
     }
-    /// Includes all numbers at once, combined by `or`. Range: not negative.
+    /// Makes settle() choose a block in which the first `used` values fit. Combines their magnitudes by `or`.
     DETENT_LANES_INLINE void include(const LaneReals* values, uint32_t used) {
       LaneInt64 all = {0, 0, 0, 0};
       for (uint32_t i = 0; i < used; ++i) all |= magnitude(values[i]);
@@ -286,7 +288,7 @@ struct LaneTypes {
       const LaneInt64 ulps = shifted_down(value.v, shift_ - words_of(exponent));
       return number_from(clamp_words(ulps, -k_factor_max, k_factor_max));
     }
-    /// Range: the value was included.
+    /// Range: `value` was passed to include().
     DETENT_LANES_INLINE Lanes number(LaneReals value) const { return number_from(shifted_down(value.v, shift_)); }
     DETENT_LANES_INLINE LaneReals real(Lanes ulps) const { return {words_from(ulps) << shift_}; }
     DETENT_LANES_INLINE Vec3<LaneReals> real(const Vec3<Lanes>& v, const LaneShare& share, LaneInt32 exponent) const {
@@ -370,7 +372,7 @@ struct LaneTypes {
   friend DETENT_LANES_INLINE Vec3<LaneReals> operator+(const Vec3<LaneReals>& a, const Vec3<LaneReals>& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
   }
-  /// The Units of lanes are already rounded.
+  /// Returns `v` itself, because the Units of lanes are already rounded.
   friend DETENT_LANES_INLINE const Vec3<LaneUnits>& fine(const Vec3<LaneUnits>& v) { return v; }
   friend DETENT_LANES_INLINE Lanes dot(const Vec3<Lanes>& a, const Vec3<LaneUnits>& b) {
     return product(a.x, b.x) + product(a.y, b.y) + product(a.z, b.z);

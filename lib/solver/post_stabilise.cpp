@@ -27,7 +27,7 @@ struct MovedBody {
     work.displacement = motion.linear_velocity;
     const Vec3<Real> more = scale_by_power(rotation_vector, k_angular_velocity_power);
     work.rotation_vector += more;
-    work.angular_velocity += rotation_vector;  // sum of all rotations: applied to `rotation` at the end
+    work.angular_velocity += rotation_vector;  // the sum of all rotations, which is applied to `rotation` at the end
   }
 };
 

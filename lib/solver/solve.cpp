@@ -37,7 +37,7 @@ uint32_t integrate_velocities(const SolverBodies& bodies, Span<const uint32_t> i
     motion.angular_momentum += turned;
     clamped += clamp_vector(motion.linear_velocity, k_speed_work_max) +
                clamp_vector(motion.angular_momentum, k_angular_velocity_work_max);
-    // Only contacts read this member.
+    // Only contacts read BodyWork::angular_velocity.
     if (touches) renew_angular_velocity(bodies.properties[slot], motion, now);
   }
   return clamped;
@@ -67,8 +67,9 @@ uint32_t integrate_positions(const SolverBodies& bodies, Span<const uint32_t> is
   return clamped;
 }
 
-/// Rounds per substep that alternate between contacts and joints: always at most the first number, and at most the
-/// second while a round changes velocities as much as an impact does.
+/// Limits of the number of rounds per substep in which contacts and joints are solved alternately. After k_joint_rounds
+/// rounds, further rounds follow, up to k_joint_rounds_max, only while a round changes velocities as much as an impact
+/// does.
 constexpr uint32_t k_joint_rounds = 4, k_joint_rounds_max = 16;
 
 /// Stores the bodies' current velocities, for has_settled().
@@ -92,7 +93,7 @@ bool may_be_solved_at_once(const ContactOrder& a, const ContactOrder& b) {
   return a.colour == b.colour && a.kind >> k_rows_shift == b.kind >> k_rows_shift && single_a == single_b;
 }
 
-/// The number of contacts at the start of `order` that may be solved at once, at least 1.
+/// Returns how many contacts at the start of `order` may be solved at once: at least 1.
 uint32_t solved_at_once(const StepSettings& settings, Span<const ContactOrder> order) {
   if (order[0].colour == k_colour_overflow) return 1;
   uint32_t count = 1;
@@ -110,7 +111,8 @@ void put_groups_in_lanes(const StepSettings& settings, const SolverBodies& bodie
 }
 
 /// Marks the groups of contacts that are solved at once, and puts them into lanes. A group takes whole LaneSpaces, even
-/// if it leaves lanes empty. It is made smaller if the later contacts would have less than one LaneSpace per four.
+/// if it leaves lanes empty. A group is made smaller if fewer LaneSpaces would remain than one for each four later
+/// contacts.
 void put_all_in_lanes(const StepSettings& settings, const SolverBodies& bodies, const IslandContacts& all) {
   if (!uses_lanes(settings)) return;
   uint32_t used = 0;
@@ -138,7 +140,7 @@ void take_all_from_lanes(const StepSettings& settings, const IslandContacts& all
   });
 }
 
-/// Limits the warm start of each of the islands that are solved together.
+/// Limits the warm start of each island in `islands`, which lists the bodies of islands that are solved together.
 void limit_warm_starts(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> islands,
                        const IslandContacts& all) {
   bool limited = false;
@@ -158,7 +160,7 @@ void limit_warm_starts(const StepSettings& settings, const SolverBodies& bodies,
   if (uses_lanes(settings)) put_groups_in_lanes(settings, bodies, all);
 }
 
-/// What a pass does with a contact, and with a group of contacts in lanes.
+/// The functions by which a pass processes a single contact, and a group of contacts in lanes.
 struct ContactPass {
   void (*one)(ContactSolver<One>& contact);
   void (*group)(const StepSettings& settings, const SolverBodies& bodies, LaneSpace* lanes, uint32_t count);

@@ -10,10 +10,10 @@ inline namespace DETENT_NAMESPACE {
 
 struct SolveCount {
   uint32_t clamped = 0;  ///< values that were clamped
-  /// Iterations over the island's contacts that were skipped, because the iterations had converged
+  /// Iterations over the island's contacts that were skipped because earlier iterations had converged
   /// (WorldDef::convergence).
   uint32_t sweeps_saved = 0;
-  uint32_t undecided = 0;  ///< joint solves that ended with a limit or motor undecided
+  uint32_t undecided = 0;  ///< joint solves that ended before the modes of all limits and drives were decided
 };
 
 struct JointStage;

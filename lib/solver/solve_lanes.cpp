@@ -10,7 +10,7 @@ namespace {
 template <uint32_t count>
 using Contacts = const ContactWork* const (&)[count];
 
-/// Words of ContactWork, beginning with a given member.
+/// Words of `count` ContactWorks, from the member at `offset` on. A member is selected by its offset in ContactWork.
 template <uint32_t count, uint32_t size>
 struct Words {
   LaneWords<count, size> words;
@@ -189,14 +189,14 @@ DETENT_LANES_INLINE void each_impulse(Lane& lanes, const Visit& visit) {
   visit([](auto& contact) { return contact.angular_impulse; }, lanes.angular_impulse);
 }
 
-/// Sets the rows of absent points, if a contact has fewer points than the group. These rows get no impulse. Their
-/// products change no sum, not even the sign of a zero.
+/// Sets the rows of absent points of contacts that have fewer points than the group. These rows get no impulse, and
+/// their products change no sum, not even the sign of a zero.
 template <uint32_t count>
 DETENT_LANES_INLINE void clear_absent_points(LaneContact<count>& to) {
   for (uint32_t lane = 0; lane < count; ++lane) {
     for (uint32_t i = static_cast<uint32_t>(to.points[lane]); i < to.state.point_count; ++i) {
       for (LaneUnits<count>& element : to.coupling[i]) element.v[lane] = -0.0f;
-      to.coupling[i][i].v[lane] = 1;  // a pivot
+      to.coupling[i][i].v[lane] = 1;  // a pivot, so not 0
       to.x[i].v[lane] = to.normal_mass[i].v[lane] = 0;
       to.y[i].v[lane] = -0.0f;
       to.separation[i].v[lane] = 0;

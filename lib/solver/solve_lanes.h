@@ -1,14 +1,14 @@
 #pragma once
 #include "solver/solve.h"
 
-/// The passes of the solver for up to four or eight contacts at once, for processors with registers of 256 bits. Each
+/// The passes of the solver for groups of up to four or eight contacts at once, in vector registers (lanes.h). Each
 /// lane executes the same operations as the solver of a single contact, so the results have the same bits
 /// (tests/unit/solver/lanes_test.cpp). The contacts stay in lanes while their island is solved.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 #if DETENT_QUADS
-/// The most contacts that are solved at once.
+/// The largest number of contacts that are solved at once.
 #if defined(__x86_64__) && defined(DETENT_F32)
 inline constexpr uint32_t k_lanes_max = 8;
 #else
@@ -28,7 +28,7 @@ void put_in_lanes(const SolverBodies& bodies, Span<const ContactWork> contacts, 
                   LaneSpace* lanes);
 /// Reads the rows of the contacts and the inverse inertias of their bodies again. The impulses in lanes stay unchanged.
 void renew_lanes(const SolverBodies& bodies, Span<const ContactWork> contacts, LaneSpace* lanes, uint32_t count);
-/// Writes the impulses back to the contacts.
+/// Writes the impulses of a group from its lanes back to its contacts.
 void take_from_lanes(const LaneSpace* lanes, uint32_t count, Span<ContactWork> contacts);
 
 /// The same passes as those of ContactSolver<One>, for a group.

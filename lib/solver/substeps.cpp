@@ -14,12 +14,12 @@ namespace {
 /// The numbers of substeps that an island can have. If the limit of the island lies between two of these numbers, the
 /// island can have the limit, too.
 constexpr uint32_t k_notches[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
-/// The number of substeps decreases only to a number that is enough for k_in_hand times the squared number that the
-/// contacts need.
+/// The number of substeps decreases only to a number whose square is at least k_in_hand times the squared number that
+/// the contacts need.
 constexpr Scaled k_in_hand = 1.0 / 0.6;
 /// The least number of bodies of a run that can buckle: a shorter run sinks before it buckles.
 constexpr uint32_t k_run_min = 3;
-constexpr uint32_t k_contact_substeps_min = 2;  ///< for islands with contacts
+constexpr uint32_t k_contact_substeps_min = 2;  ///< least number of substeps for islands with contacts
 
 Scaled square_of(uint32_t n) {
   const Scaled scaled = scaled_from_count(n);
@@ -27,13 +27,14 @@ Scaled square_of(uint32_t n) {
 }
 
 /// The squared number of substeps that the contact needs for its sag and against buckling. In an island with joints
-/// (`jointed`), the sag accounts for at most k_jointed_sag_substeps.
+/// (`jointed`), the sag requires at most k_jointed_sag_substeps.
 Scaled needed(const StepSettings& settings, const ContactWork& contact, const BodyProperties& a,
               const BodyProperties& b, uint32_t run, bool jointed) {
   Scaled effective_mass = 0.0;
   for (uint32_t i = 0; i < contact.state.point_count; ++i)
     effective_mass = add(effective_mass, scaled_from(contact.normal_mass[i]));
-  if (contact.static_pair != 0) effective_mass = scaled_by_power(effective_mass, 2);  // twice the frequency
+  // The springs of a contact with only one dynamic body have twice the frequency.
+  if (contact.static_pair != 0) effective_mass = scaled_by_power(effective_mass, 2);
   if (!is_positive(effective_mass)) return Scaled(0.0);
   const Scaled extent = scaled_from(min(shape_extent(a), shape_extent(b)));
   const Scaled load = scaled_from(contact.state.load);
@@ -48,8 +49,8 @@ Scaled needed(const StepSettings& settings, const ContactWork& contact, const Bo
   return less(sag, buckling) ? buckling : sag;
 }
 
-/// The smallest entry of k_notches from `least` on and below `most` whose square is at least `need`; `most` if there is
-/// none.
+/// The smallest entry of k_notches that is at least `least`, below `most`, and whose square is at least `need`. Returns
+/// `most` if there is no such entry.
 DETENT_SHARED uint32_t notch_for(Scaled need, uint32_t least, uint32_t most) {
   for (const uint32_t notch : k_notches) {
     if (notch < least) continue;

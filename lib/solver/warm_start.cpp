@@ -13,8 +13,8 @@ Scaled scaled_dot(const Vec3<Real>& a, const Vec3<Real>& b) {
   return add(part(a.x, b.x), add(part(a.y, b.y), part(a.z, b.z)));
 }
 
-/// The share of the warm start that the island keeps. Range: as for limit_warm_start(), and no contact has a kinematic
-/// body.
+/// The share of the warm start that the island keeps. Range: no body of the island has a joint, and no contact has a
+/// kinematic body.
 Scaled share_of_warm_start(const SolverBodies& bodies, Span<const uint32_t> island) {
   Scaled own = 0.0, energy = 0.0;  // p M p and E
   for (const uint32_t slot : island) {

@@ -19,11 +19,12 @@ inline bool is_shape_of(const BodyProperties& body, uint32_t asset) {
   return body.type != 0 && asset_kind_of(static_cast<ShapeType>(body.shape)) != AssetKind::none && body.asset == asset;
 }
 
-/// Computes the description of asset `index` of the table, which the state stores. Errors: asset_missing;
+/// Computes `description`, the entry that the state stores for asset `index` of the table. Errors: asset_missing;
 /// feature_missing (the feature table has neither hulls, terrains nor compounds).
 Status describe_asset(AssetTable table, uint32_t index, const FeatureTable& features, AssetState& description);
 
-/// Checks that every bound asset matches the table. Errors: asset_missing, asset_mismatch, feature_missing.
+/// Checks that the asset table still has the bytes of every asset in `bound`. Errors: asset_missing, asset_mismatch,
+/// feature_missing.
 Status check_assets(AssetTable table, const FeatureTable& features, Span<const AssetState> bound);
 
 /// Checks the asset of a shape for a body of this type. The asset must be bound in the state, must have the kind that

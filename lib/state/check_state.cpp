@@ -37,13 +37,14 @@ bool is_pose(const BodyPose& pose) {
 bool is_unit_size(Unit value) { return value >= Unit(0.0) && value <= Unit(1.0); }
 
 /// Whether the bounding radius equals that of set_shape_properties(), up to the rounding of the sizes. body_convex()
-/// permits this difference.
+/// accepts such a difference.
 bool is_bound(Unit bound, Unit expected) {
   constexpr Unit k_error = sizeof(Unit) == 4 && !DETENT_FIXED ? 0x1p-23 : 0x1p-28;
   return bound >= Unit(0.49) && bound <= Unit(1.0) && abs(bound - expected) <= k_error;
 }
 
-/// As is_bound(), for a core and its rounding separately, because their sum may exceed the range of a Unit.
+/// As is_bound(), for the expected radius core + rounding. Takes the radius of the core alone, because the sum may
+/// exceed the range of a Unit.
 bool is_bound_of(Unit core, const BodyProperties& properties) {
   return core <= Unit(1.5) - properties.rounding && is_bound(properties.bounding_radius, core + properties.rounding);
 }
@@ -52,7 +53,7 @@ bool is_bound_of_core(const BodyProperties& properties) {
   return is_bound_of(core_bound(shape_of(properties), properties.size), properties);
 }
 
-/// `assets`: already checked by check_assets().
+/// Whether the sizes and the asset of a hull body are valid. Range: check_assets() has accepted `assets`.
 bool is_hull(const BodyProperties& properties, AssetTable assets, Span<const AssetState> bound) {
   if (properties.asset >= bound.count || bound[properties.asset].kind != static_cast<uint32_t>(AssetKind::hull))
     return false;
@@ -135,7 +136,7 @@ bool has_mass(const BodyProperties& properties) {
          properties.inverse_inertia[1] == none && properties.inverse_inertia[2] == none;
 }
 
-/// The features of the world that the state comes from.
+/// The features of the world in which the state was saved.
 Features features_of(const State& state) {
   return without(Features::all, static_cast<Features>(state.header.left_out));
 }
@@ -174,7 +175,8 @@ bool is_empty_slot(const State& state, uint32_t slot) {
   return is_zero(rest) && is_zero(state.poses[slot]) && is_zero(state.motions[slot]) && is_zero(state.activities[slot]);
 }
 
-/// Whether the sleeping data of a body is valid. A sleeping group is identified by one of its bodies.
+/// Whether the sleeping data of a body is valid. Bodies that fell asleep together are identified by the slot of one of
+/// them.
 bool is_activity(const State& state, uint32_t slot) {
   const BodyActivity& activity = state.activities[slot];
   if (!is_dynamic(state.properties[slot])) return is_zero(activity);
@@ -336,7 +338,7 @@ Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, c
   if (world.joint_count != 0 && !contains(features_of(state), Features::joints)) return Status::corrupt;
   if (world.sensor_count != 0 && !contains(features_of(state), Features::sensors)) return Status::corrupt;
   if (!are_slots(state) || !are_assets(state) || !are_fills(block, state.layout)) return Status::corrupt;
-  // Assets are checked before the bodies, because the bodies are checked against their hulls.
+  // Assets are checked before the bodies, because checking a body reads its asset.
   if (const Status status = check_assets(assets, features, state.assets); status != Status::ok) return status;
   if (!are_bodies(state, assets, features) || !are_contacts(state) || !are_manifolds(state) || !are_joints(state) ||
       !are_sensed(state) || (world.idle != 0 && !is_idle(state))) {

@@ -21,7 +21,7 @@ bool has_room(const State& from, const State& to) {
          (world.contact_recycle_distance == Real(0.0) || to.header.manifolds != 0);
 }
 
-/// Checks that the handle of `to` has the features, assets and filter rules that the state needs.
+/// Checks that the world `to` has the features, assets and filter rules that the state needs.
 Status check_handle(const World& from, const State& state, const World& to) {
   const Features needed = without(Features::all, static_cast<Features>(state.header.left_out));
   if (!contains(to.features->features, needed)) return Status::feature_missing;

@@ -7,9 +7,9 @@
 #include "state/view.h"
 
 // Format: a header of three 8-byte words (magic and format, the base's tick, size of the snapshot in bytes), then the
-// 8-byte words after the snapshot's header in order. A word that differs is stored as a mask of its differing bytes,
-// followed by these bytes. A run of equal words is stored as an empty mask, followed by the length of the run; a run at
-// the end is left out.
+// 8-byte words after the snapshot's header in order. A word that differs from the base is stored as a mask of its
+// differing bytes, followed by the new values of these bytes. A run of words that are equal to the base is stored as an
+// empty mask, followed by the number of words; a run at the end is left out.
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -42,11 +42,11 @@ struct DeltaWriter {
     for (; value >= 128; value >>= 7) put(static_cast<uint8_t>(value | 128));
     put(static_cast<uint8_t>(value));
   }
-  /// Writes the mask of a word, then its bytes that differ from the base.
+  /// Writes the mask of the bytes in which a word differs from the base, then these bytes.
   void put_word(const uint8_t* word, uint64_t difference) {
     uint8_t made[9];
     uint32_t size = 1, mask = 0;
-    for (uint32_t i = 0; i < 8; ++i) {  // if this byte does not differ, the next byte overwrites it
+    for (uint32_t i = 0; i < 8; ++i) {  // a byte that does not differ is overwritten by the next byte
       const uint32_t differs = (difference >> (8 * i) & 255) != 0 ? 1 : 0;
       mask |= differs << i;
       made[size] = word[i];
@@ -62,8 +62,8 @@ struct DeltaWriter {
   }
 };
 
-/// Compares words of canonical bytes, which add() receives piece by piece. The output does not depend on the sizes of
-/// the pieces.
+/// Compares the canonical bytes of the state with the base, word by word. add() receives them piece by piece. The
+/// output does not depend on the sizes of the pieces.
 struct Differ {
   DeltaWriter& writer;
   uint32_t same = 0;  ///< number of equal words since the last word that differs
@@ -85,7 +85,7 @@ struct Differ {
   }
 };
 
-/// The bytes after a delta's header.
+/// Reads the entries of a delta: the bytes after its header.
 struct DeltaReader {
   const uint8_t* bytes;
   uint32_t left;
@@ -108,8 +108,8 @@ struct DeltaReader {
   }
 };
 
-/// Reads all entries of a delta. Applies the differences to `bytes`, unless `bytes` is null. The words after the last
-/// entry are equal. Returns false if an entry is malformed or lies beyond the `words` words.
+/// Reads all entries of a delta. Writes the bytes that differ to `bytes`, unless `bytes` is null. Words after the last
+/// entry do not differ. Returns false if an entry is malformed, or if the entries cover more than `words` words.
 bool read_words(DeltaReader reader, uint32_t words, uint8_t* bytes) {
   for (uint32_t at = 0; reader.left != 0;) {
     uint8_t mask = 0;
@@ -132,14 +132,15 @@ bool read_words(DeltaReader reader, uint32_t words, uint8_t* bytes) {
   return true;
 }
 
-/// `snapshot`: the base, or null to check only whether the delta's words fit it.
+/// Applies a delta to `snapshot`, the base. If `snapshot` is null, only checks whether the delta fits a snapshot of
+/// this size.
 bool apply_words(uint8_t* snapshot, uint32_t snapshot_size, const uint8_t* delta, uint32_t delta_bytes) {
   constexpr uint32_t k_head = sizeof(BlockHeader);
   return read_words({delta + k_delta_header_bytes, delta_bytes - k_delta_header_bytes}, (snapshot_size - k_head) / 8,
                     snapshot == nullptr ? nullptr : snapshot + k_head);
 }
 
-/// Checks that `delta` is a delta and belongs to this base.
+/// Checks that `delta` is a delta, and that it was made from this base.
 Status check_delta(const uint8_t* base, uint32_t base_bytes, const uint8_t* delta, uint32_t delta_bytes) {
   if (base == nullptr || base_bytes < sizeof(BlockHeader) + sizeof(WorldState)) return Status::truncated;
   if (delta == nullptr || delta_bytes < k_delta_header_bytes) return Status::truncated;

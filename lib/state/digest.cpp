@@ -30,7 +30,7 @@ uint64_t leaf(const Section& section, uint32_t section_index, const uint8_t* ele
 uint64_t digest(const World& world) {
   const StateView<const uint8_t> state = view_of(world);
   uint64_t running = digest_step(k_world_seed, static_cast<uint64_t>(k_config));
-  for (uint32_t i = 1; i < k_section_count; ++i) {  // 0 is the header, which is not part of the contents
+  for (uint32_t i = 1; i < k_section_count; ++i) {  // section 0 is the header, which the digest does not cover
     const Section& section = k_sections[i];
     const uint8_t* element = world.block + state.layout.*section.offset;
     const uint32_t bytes = section_bytes(state.layout, i);
@@ -39,7 +39,8 @@ uint64_t digest(const World& world) {
     for (uint32_t index = 0; index < count; ++index, element += section.element_bytes) {
       sum += leaf(section, i, element, section.element_bytes, index);
     }
-    sum += leaf(section, i, element, bytes % section.element_bytes, count);  // the fill up to the next array: zeros
+    // The fill up to the next array; it is zero.
+    sum += leaf(section, i, element, bytes % section.element_bytes, count);
     running = digest_step(running, sum);
   }
   return digest_finish(running);

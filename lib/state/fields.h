@@ -33,8 +33,8 @@ struct Section {
   uint32_t Layout::*offset;
 };
 
-/// The fields of the elements of a section. This is a separate table, because a little-endian program does not need it
-/// in flash.
+/// The fields of the elements of a section. The table is separate from k_sections, because a little-endian program does
+/// not need the fields, and so does not store them in flash.
 struct SectionFields {
   const char* name;
   const Field* fields;
@@ -293,14 +293,14 @@ inline constexpr SectionFields k_section_fields[k_section_count] = {
     section_fields("sensed", k_sensed_fields),
 };
 
-/// The size of a section, bytes, including the fill up to the alignment of the next section. The fill is always zero. A
-/// fill as long as an element counts as a further element; a shorter one is left over.
+/// The size of a section, bytes, including the fill up to the alignment of the next section. The fill is always zero.
+/// If the fill is as long as an element, size / element size counts it as one more element of zeros.
 inline uint32_t section_bytes(const Layout& layout, uint32_t index) {
   const uint32_t end = index + 1 < k_section_count ? layout.*k_sections[index + 1].offset : layout.persistent_bytes;
   return end - layout.*k_sections[index].offset;
 }
 
-/// Reverses the words of one element.
+/// Reverses the bytes of each word of an element, which converts the element between the two byte orders.
 void swap_element(uint32_t section_index, uint8_t* element);
 
 }  // namespace DETENT_NAMESPACE

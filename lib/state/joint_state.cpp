@@ -8,7 +8,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_axis_max = 16384.0;  ///< largest magnitude of a length limit or target of a joint, m
+/// Limit of the lengths of a joint (limits, targets), m, and of a stored impulse, m/s.
+constexpr Real k_axis_max = 16384.0;
 constexpr Real k_angle_max = 3.14159265358979323846;
 constexpr Real k_frequency_min = 0x1p-10;
 constexpr Real k_frequency_max = 1024.0;
@@ -18,7 +19,8 @@ constexpr Scaled k_force_max = 0x1p60;
 
 bool is_axis(const JointState& joint, int i) {
   const JointType type = static_cast<JointType>(joint.type);
-  // Values without meaning for the type are checked too: on the first axis as lengths, on the second as angles.
+  // Values that have no meaning for the type of joint are checked too: as lengths on the first axis, as angles on the
+  // second.
   const bool angle = i == 1 || (free_motion_count(type) != 0 && is_angular(type, i));
   const Real most = angle ? k_angle_max : k_axis_max;
   const bool frequency = joint.frequency[i] == k_zero || within(joint.frequency[i], k_frequency_min, k_frequency_max);

@@ -7,8 +7,8 @@
 #include "state/used.h"
 
 // Format: the header and the world unchanged, the number of assets in use, then the used elements of each section. An
-// element with optional parts begins with a byte of flags for the parts that are present; parts that are zero are
-// omitted.
+// element with optional parts begins with a byte that has a flag for each of these parts: 1 if the part follows, 0 if
+// it is omitted because it is zero.
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -85,7 +85,7 @@ class Unpacker {
   uint32_t flags_ = 0;
 };
 
-/// For each section with optional parts: the parts of an element, for packing and unpacking.
+/// The parts of an element, in order, for each section with optional parts. `Mover` is Packer or Unpacker.
 struct MotionParts {
   template <class Mover, class Byte>
   static void move(Mover& mover, Byte* motion) {
@@ -114,7 +114,8 @@ struct ManifoldParts {
   }
 };
 
-/// The mover is passed by value: with a reference, the compiler must assume that written bytes alias the mover.
+/// Packs or unpacks the elements of a section with optional parts. The mover is passed by value, because the compiler
+/// would have to assume that written bytes alias a mover passed by reference.
 template <class Parts, class Mover, class Byte>
 Mover move_elements(Mover mover, Byte* element, uint32_t count, uint32_t element_bytes) {
   for (Byte* const end = element + count * element_bytes; element != end; element += element_bytes) {

@@ -28,7 +28,7 @@ DETENT_SHARED inline bool within(const Vec3<Real>& v, Real limit) {
 }
 
 #if DETENT_FIXED
-/// Whether the value is canonical and its exponent so small that products of two such values stay in range.
+/// Whether the value is canonical and its exponent is in a range in which the product of two values does not overflow.
 DETENT_SHARED inline bool is_number(Scaled value) {
   if (value.mantissa == 0) return value.exponent == 0;
   const uint32_t magnitude = magnitude_32(value.mantissa);
@@ -80,7 +80,7 @@ inline bool is_reduction(ManifoldReduction reduction) {
   return reduction == ManifoldReduction::projected_extremes || reduction == ManifoldReduction::deepest_area;
 }
 
-inline constexpr Real k_friction_max = 16.0;  ///< also the limit of rolling resistance
+inline constexpr Real k_friction_max = 16.0;  ///< limit of friction and of rolling resistance
 inline constexpr Real k_damping_max = 1024.0;
 inline constexpr Real k_gravity_max = 1024.0;
 inline constexpr Real k_gravity_scale_max = 1024.0;

@@ -5,12 +5,13 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A slot that has used this generation is retired: it is never assigned again.
+/// The last generation of a slot. When a body of this generation is destroyed, its slot is retired: it is never
+/// assigned again.
 inline constexpr uint32_t k_generation_last = UINT32_MAX;
 
 inline uint32_t slot_bit(uint32_t slot) { return 1u << (slot % 32); }
 
-/// Takes the lowest free slot. False if there is none.
+/// Takes the lowest free body slot and stores it in `slot`. Returns false if no slot is free.
 inline bool take_slot(StateView<uint8_t>& state, uint32_t& slot) {
   for (uint32_t word = state.world.free_word; word < state.slots.count; ++word) {
     if (state.slots[word] == UINT32_MAX) continue;

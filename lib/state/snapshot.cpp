@@ -99,7 +99,7 @@ bool snapshot_read(const World& world, uint32_t offset, uint8_t* bytes, uint32_t
     memcpy(bytes, world.block + offset, count);
     return true;
   }
-  memset(bytes, 0, count);  // for bytes that no element covers: the fill between arrays
+  memset(bytes, 0, count);  // the fill between arrays, which no element covers
   const uint32_t end = offset + count;
   for (uint32_t i = 0; i < k_section_count; ++i) {
     const uint32_t start = layout.*k_sections[i].offset;

@@ -28,11 +28,12 @@ Status check_header(const BlockHeader& header, Capacity capacity, const FeatureT
 /// As check_header, for canonical bytes.
 Status check_canonical_header(const uint8_t* bytes, Capacity capacity, const FeatureTable& features);
 
-/// Converts between the machine's byte order and the canonical one, in place. Does nothing on little-endian machines.
+/// Converts a persistent state between the machine's byte order and the canonical one, in place. Does nothing on
+/// little-endian machines.
 void swap_state(uint8_t* block, const Layout& layout);
 
-/// Must be called after a state of another world was copied into the block. Sets the features in the header, because
-/// the other world may have had fewer, and invalidates the step cache.
+/// Must be called after a state of another world was copied into the block. Sets BlockHeader::left_out for the features
+/// of `world`, because the other world may have had fewer features. Invalidates the step cache.
 void take_over(World& world);
 
 }  // namespace DETENT_NAMESPACE

@@ -4,7 +4,7 @@
 #include "state/packed_state.h"
 #include "state/snapshot.h"
 
-// A place of the ring holds a packed state. The magic in its header is 0 while the place is empty.
+// Each place of the ring holds one packed state. While a place is empty, the magic in its header is 0.
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

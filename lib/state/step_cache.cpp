@@ -21,8 +21,8 @@ Span<const uint32_t> partition_bodies(const StepCacheView& step, const StepSetti
                                       const StateView<uint8_t>& state, Span<BodyWork> work, Span<BodySweep> sweeps,
                                       Span<uint32_t> slots) {
   if (step.cache.fresh == 0) make_anew(step, state);
-  // All bodies of the active set are removed from the tree before any is inserted, because the bounds of a body in the
-  // tree must not change.
+  // First removes all bodies of the active set from the tree, because the bounds of a body must not change while it is
+  // in the tree.
   step.active.for_each([&](uint32_t slot) {
     if (step.tree.has(slot)) step.tree.remove(slot);
   });

@@ -9,7 +9,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The work space of a step in a block, as spans of full capacity.
+/// The arrays of a step's work space in a block. The length of each span is the capacity of its array.
 struct Scratch {
   Span<uint32_t> moving_bodies;
   BitSet candidates;
@@ -72,7 +72,8 @@ inline Scratch scratch_of(uint8_t* block, const Layout& layout, Capacity capacit
 }
 
 #if DETENT_TASKS
-/// Spare memory for impacts: what their arrays leave of the memory that they share with the work space of the substeps.
+/// The spare memory of the impact stage. The arrays for impacts reuse the memory of the substeps' work space (Layout).
+/// The spare memory is the part that they leave unused.
 inline Span<uint64_t> impact_spare(uint8_t* block, const Layout& layout, Capacity capacity) {
   const uint64_t start = (layout.impact_paths + uint64_t{sizeof(ImpactPath)} * capacity.bodies + 7) / 8;
   return {at_offset<uint64_t>(block, static_cast<uint32_t>(8 * start)),

@@ -123,7 +123,7 @@ void visit_body(const BodyWork& work, bool left_out, uint32_t slot, const TraceV
   body.displacement = work.displacement;
   body.rotation_vector = work.rotation_vector;
   body.angular_velocity = work.angular_velocity;
-  if (!left_out) {  // otherwise these members are not computed
+  if (!left_out) {  // of a non-colliding body these members are not computed
     body.extent = work.extent;
     body.fall = work.fall;
     body.speed = work.speed;
@@ -167,7 +167,8 @@ uint64_t trace_digest(const TracePart& part, uint32_t place, const uint8_t* byte
   return digest_finish(digest_bytes(bytes, part.element_bytes, digest_step(part.number, part.sorted ? 0 : place)));
 }
 
-/// step.cpp and layout.h determine the data that the work space holds at the end of each stage.
+/// Visits only the data that the work space holds at the end of the stage. step.cpp and layout.h determine which data
+/// this is.
 void visit_trace(const World& world, TraceStage stage, uint32_t contacts, const TraceVisitor& visitor) {
   const StateView<const uint8_t> state = view_of(world);
   visit_state(world, state, visitor);

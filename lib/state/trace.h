@@ -21,18 +21,18 @@ constexpr TraceStage trace_stage(StepStage stage) {
   return static_cast<TraceStage>(static_cast<uint32_t>(stage) + static_cast<uint32_t>(TraceStage::find_pairs));
 }
 
-/// The kind of the elements of a part.
+/// What an element of a trace describes.
 enum class TraceKind : uint32_t { world, body, slot_word, contact, asset, joint, sensed };
 
-/// A kind of element that is traced.
+/// The description of one kind of traced element: an array of the state, or data in the work space.
 struct TracePart {
-  uint32_t number;  ///< stored: never reused. For a part of the persistent state, the index of its section
+  uint32_t number;  ///< stored in files: never reused. For an array of the state, the index of its section
   const char* name;
   const Field* fields;
   uint32_t field_count;
   uint32_t element_bytes;
   TraceKind kind;
-  uint32_t key_words;  ///< number of leading 4-byte words that identify the element
+  uint32_t key_words;  ///< number of 4-byte words at the start of an element that identify it
   bool sorted;         ///< the array is sorted by the key words, so the index of an element has no meaning
 };
 inline constexpr uint32_t k_trace_part_count = 15;
@@ -43,7 +43,7 @@ const TracePart* find_trace_part(uint32_t number);
 /// The data of a contact in the work space of a step.
 struct TraceContact {
   ContactState state;
-  Real separation[k_manifold_points_max];  ///< 0 beyond the points, like `approach`
+  Real separation[k_manifold_points_max];  ///< 0 for indices from point_count on; the same holds for `approach`
   Real approach[k_manifold_points_max];
   Vec3<Unit> normal;
   Vec3<Unit> middle_a, middle_b;
@@ -73,7 +73,7 @@ struct TraceVisitor {
 /// Visits all elements that are not zero. `contacts`: number of contacts in the work space of the step.
 void visit_trace(const World& world, TraceStage stage, uint32_t contacts, const TraceVisitor& visitor);
 
-/// The digest of an element. The digest of a stage is the sum over its elements.
+/// The digest of an element. The digest of a stage is the sum of the digests of all elements.
 uint64_t trace_digest(const TracePart& part, uint32_t place, const uint8_t* bytes);
 
 /// The size of the largest element, bytes.

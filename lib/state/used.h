@@ -2,7 +2,7 @@
 #include "state/fields.h"
 #include "state/view.h"
 
-/// The parts of a state that are in use. All other bytes are zero, so a copy need not contain them.
+/// The elements of a state that are in use. All other elements are zero, so a copy can leave them out.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -15,14 +15,14 @@ struct UsedCounts {
 UsedCounts used_counts(const WorldState& world, uint32_t assets, bool has_manifolds);
 UsedCounts used_counts(const StateView<const uint8_t>& state);
 
-/// The number of asset entries up to the last bound one.
+/// The number of asset entries up to and including the last bound one.
 uint32_t used_assets(const StateView<const uint8_t>& state);
 
-/// Sets to zero the elements that were in use before and are no longer in use.
+/// Sets to zero the elements that `before` counts as used, but `now` does not.
 void clear_unused(const StateView<uint8_t>& state, const UsedCounts& before, const UsedCounts& now);
 
-/// Copies the used elements without the header. `to` must hold a state and have enough capacity; its remaining elements
-/// become zero.
+/// Copies the used elements of all sections except the header. Range: `to` holds a valid state and has enough capacity.
+/// The remaining elements of `to` become zero.
 void copy_used(const StateView<const uint8_t>& from, const StateView<uint8_t>& to);
 
 inline StateView<const uint8_t> const_view_of(const uint8_t* block) {

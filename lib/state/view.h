@@ -9,7 +9,7 @@ inline namespace DETENT_NAMESPACE {
 inline constexpr uint32_t k_snapshot_magic = 0x544e5444;  // "DTNT" in canonical bytes
 inline constexpr uint32_t k_snapshot_format = 6;
 
-/// BlockHeader::left_out of a world with this feature table.
+/// The value of BlockHeader::left_out for a world with this feature table.
 inline uint32_t left_out(const FeatureTable& features) {
   return static_cast<uint32_t>(without(Features::all, features.features));
 }
@@ -23,7 +23,7 @@ inline Capacity capacity_of(const BlockHeader& header) {
           header.manifolds != 0,  header.capacity_joints,   header.capacity_sensed};
 }
 
-/// `T`, const if `Byte` is const.
+/// The type `T`; `const T` if `Byte` is const.
 template <class T, class Byte>
 struct Select {
   using Type = T;
@@ -47,11 +47,11 @@ struct StateView {
   Span<Of<BodyProperties>> properties;
   Span<Of<BodyActivity>> activities;
   Span<Of<uint32_t>> slots;
-  Span<Of<ContactState>> contacts;  ///< the full capacity
+  Span<Of<ContactState>> contacts;  ///< all elements of the capacity, used or not
   Span<Of<AssetState>> assets;
   Span<Of<ManifoldState>> manifolds;  ///< one per contact if the world has room for them, else empty
-  Span<Of<JointState>> joints;        ///< the full capacity
-  Span<Of<SensedState>> sensed;       ///< the full capacity
+  Span<Of<JointState>> joints;        ///< all elements of the capacity, used or not
+  Span<Of<SensedState>> sensed;       ///< all elements of the capacity, used or not
 };
 
 template <class T, class Byte>
@@ -59,7 +59,7 @@ typename Select<T, Byte>::Type* at_offset(Byte* block, uint32_t offset) {
   return reinterpret_cast<typename Select<T, Byte>::Type*>(block + offset);
 }
 
-/// Returns the arrays of a block of this capacity, which must be valid.
+/// Returns the arrays of a block of this capacity. Range: the capacity is valid (layout_of()).
 template <class Byte>
 DETENT_SHARED StateView<Byte> view_of(Byte* block, Capacity capacity) {
   bool fits = false;
@@ -86,7 +86,7 @@ DETENT_SHARED inline StateView<const uint8_t> view_of(const World& world) {
   return view_of(block, capacity_of(*at_offset<BlockHeader>(block, 0)));
 }
 
-/// Finds the slot of a live body. False if there is none.
+/// Sets `slot` to the slot of the body `id`. Returns false if there is no such body.
 template <class Byte>
 bool find_body(const StateView<Byte>& state, BodyId id, uint32_t& slot) {
   slot = id.slot - 1;  // slot 0 of the null id wraps to a slot beyond every capacity

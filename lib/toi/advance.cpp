@@ -107,7 +107,7 @@ class Side {
   mutable uint8_t start_ = 0;
 };
 
-/// A lower bound of the separation along a rotating axis, from the start of one pass on.
+/// A lower bound of the separation along a rotating axis, as a function of the time since the start of a pass.
 class Separation {
  public:
   Separation(const MovingPair& pair, const Horizon& horizon, const Vec32& normal, const Vec32& angular_velocity,
@@ -120,8 +120,8 @@ class Separation {
         b_(*pair.b, pair.turning_b, horizon.angular_velocity_b, angular_velocity, pair.core_b, pair.exponent, 1) {
     if (is_zero(angular_velocity)) return;
     tilt_ = length_bound_32(cross_29(normal, angular_velocity));
-    // The contribution of the centres to K is |n x angular_velocity| (2 |V| + |angular_velocity| max |C|), where V is
-    // the displacement and C the offset of the centres.
+    // The contribution of the centres to the curvature bound K is |n x angular_velocity| (2 |V| + |angular_velocity|
+    // max |C|), where V is the displacement over the horizon and C the offset of the centres.
     const int64_t speed = 2 * length_bound_32(horizon.displacement) +
                           product_above(length_bound_32(angular_velocity), pair.distance_max, 30);
     centre_curvature_ = product_above(tilt_, speed, 32);
@@ -144,7 +144,7 @@ class Separation {
 
   struct Value {
     int64_t separation;  ///< separation minus the floor, Q56
-    int64_t slope;       ///< at this time, with the support points of this time; Q30
+    int64_t slope;       ///< slope of the lower bound for the support points at this time, Q30
   };
   /// `x`: time since the pass's start, Q30 of the horizon.
   Value at(int64_t x) const {
@@ -167,7 +167,7 @@ class Separation {
   int32_t floor_;
   Side a_, b_;
   int64_t tilt_ = 0, centre_curvature_ = 0, curvature_ = 0;
-  int64_t centre_ = 0, centre_slope_ = 0;  ///< n . C minus the floor, Q56; its slope, Q30
+  int64_t centre_ = 0, centre_slope_ = 0;  ///< axis . offset of the centres, minus the floor, Q56; its slope, Q30
 };
 
 /// Returns the root x > 0 of separation + slope x - K x^2 / 2, where K is `curvature`; Q30, at most `limit`. The root

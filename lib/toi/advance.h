@@ -4,7 +4,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The maximum number of intervals that are certified along one axis.
+/// The maximum number of passes of a call of advance(). Each pass certifies one interval along the axis.
 inline constexpr int k_passes_max = 24;
 
 /// The motion of a pair over a horizon, which is a part of the step. Displacements and rotation vectors are those over
@@ -14,7 +14,7 @@ struct Horizon {
   Vec32 displacement;                            ///< translation of B relative to A, Q29 of the pair's unit
   Vec32 angular_velocity_a, angular_velocity_b;  ///< rotation vectors, rad, Q29
 
-  /// The time at `part`, Q30, of the horizon, rounded down.
+  /// The time, 2^-62 of the step, at which the part `part` (Q30) of the horizon has passed; rounded down.
   int64_t time_at(int64_t part) const {
     if (part >= int64_t{1} << 30) return start + length;
     const Int128 product = Int128::product(length, part);
@@ -33,23 +33,25 @@ Horizon horizon_from(const MovingPair& pair, int64_t start, int64_t length, int 
 /// The horizon that begins at `start` and lasts exactly `length`.
 Horizon horizon_over(const MovingPair& pair, int64_t start, int64_t length);
 
-/// Certifies how long the cores stay `floor` ulps apart along the rotating axis n(t) = exp(t angular_velocity) normal.
-/// Times are parts of the horizon; `angular_velocity` is the rotation over the whole horizon. `frames` are the poses at
-/// the horizon's start. Returns a part of the horizon, Q30; 0 if the cores are closer than `floor` at the start. Range,
-/// rad: |w - angular_velocity| + 1 < 4 for the rotation vector w of each body, |angular_velocity| < 3. Derivation:
+/// Certifies how long the cores stay at least `floor` ulps apart along the rotating axis n(t) = exp(t angular_velocity)
+/// normal, where t is a part of the horizon and `angular_velocity` the rotation vector of the axis over the whole
+/// horizon. `frames` are the poses at the horizon's start. Adds the number of its passes to `passes`. Returns the
+/// certified part of the horizon, Q30; 0 if the cores are closer than `floor` at the start. Range, rad: |w -
+/// angular_velocity| + 1 < 4 for the rotation vector w of each body, |angular_velocity| < 3. Derivation:
 /// docs/design/time_of_impact.md, "Conservative advancement, never late".
 int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
                 const Vec32& angular_velocity, int32_t floor, uint32_t& passes);
 
-/// Calls advance() for consecutive horizons of the same length, at most k_horizons_max of them. Stops when the axis
-/// certifies less than a whole horizon or when the window ends. Returns the time up to which the axis certifies the
-/// separation.
+/// Calls advance() for consecutive horizons of the same length, at most k_horizons_max of them. Stops at the first
+/// horizon of which advance() certifies only a part, or when the window ends. Returns the time up to which the axis
+/// certifies the separation.
 int64_t advance_on(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
                    const Vec32& angular_velocity, int32_t floor, uint32_t& passes);
 inline constexpr int k_horizons_max = 8;
 
-/// As advance(), in a single pass along a fixed axis n. The speed of the points of a body with rotation vector w and
-/// core radius rho is bounded by rho |n x w| if `tight`, otherwise by rho |w| (ToiMethod::paper).
+/// Certifies a part of the horizon as advance() does, but in a single pass along the fixed axis n = `normal`. The speed
+/// of the points of a body with rotation vector w and core radius rho is bounded by rho |n x w| if `tight`, otherwise
+/// by rho |w| (ToiMethod::paper).
 int32_t advance_once(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
                      bool tight, int32_t floor, uint32_t& passes);
 

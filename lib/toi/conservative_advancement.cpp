@@ -9,10 +9,11 @@ namespace {
 
 constexpr Vec32 k_no_angular_velocity = {0, 0, 0};
 
-/// The search uses this many axes as GJK finds them, before it predicts an axis.
+/// The number of axes that the search takes from GJK before it predicts an axis.
 constexpr int k_plain_iterations = 1;
 
-/// The time up to which the axis of `nearest`, or an axis predicted from its features, certifies the separation.
+/// The time up to which the axis of `nearest`, or an axis predicted from the nearest features, certifies the
+/// separation.
 int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames, const Simplex& simplex,
                   const GjkResult& nearest, int iteration, int32_t floor, int64_t& progress, TimeOfImpact& result) {
   const int64_t time = frames.time;

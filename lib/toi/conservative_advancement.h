@@ -6,7 +6,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-inline constexpr int k_axis_methods = 6;  ///< the first values of ToiMethod: methods with certified axes (advance.h)
+/// The number of methods that use certified axes (advance.h). They are the first values of ToiMethod.
+inline constexpr int k_axis_methods = 6;
 
 /// The method that the library uses. On no kind of query is it much slower than the best method (docs/bench).
 #if defined(DETENT_TOI_METHOD)
@@ -21,18 +22,18 @@ constexpr bool moves_both(ToiMethod method, const MovingPair& pair) {
   return method == ToiMethod::world_space && !pair.planar;
 }
 
-/// The maximum number of axes of a search. The second limit is for the methods that exist only for comparison, because
-/// these need many axes on hard queries.
+/// The maximum number of axes of a search. The second limit applies to the methods that exist only for comparison,
+/// which need many axes on hard queries.
 inline constexpr int k_toi_iterations_max = 24;
 inline constexpr int k_toi_iterations_compared_max = 256;
 
-/// The time of impact of a prepared pair by conservative advancement along axes of the method's kind. `method` is one
-/// of the first k_axis_methods. `enough`, ulps: the result is clear at once if the distance of the cores is greater
+/// Finds the time of impact of a prepared pair by conservative advancement. `method`, one of the first k_axis_methods,
+/// decides how the axes are chosen. `enough`, ulps: the result is clear at once if the distance of the cores is greater
 /// than this when the window begins.
 void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfImpact& result,
                               int32_t enough = INT32_MAX);
 
-/// time_of_impact() (toi.h) by one of the first k_axis_methods methods.
+/// Does the same as time_of_impact() (toi.h), by one of the first k_axis_methods methods.
 Status time_of_impact_on_axes(ToiMethod method, const Convex& a, const Motion& motion_a, const Convex& b,
                               const Motion& motion_b, TimeOfImpact& result);
 

@@ -84,7 +84,7 @@ OpenPart reduced_roots(const Vec64 (&corner)[4][3], const int64_t (&weight)[4], 
   constexpr int64_t k_factors = 5 + 18 + 9 + 2;
   const Int128 error = Int128::product(floor_shift(volume_error, n) + 2, k_factors * weight_most) +
                        Int128::from(2 * k_factors).shift_left(length - n);
-  // Six times the cubic through its values at 0, 1/3, 2/3 and 1.
+  // The Bernstein coefficients, times six, of the cubic that has these weighted volumes at 0, 1/3, 2/3 and 1.
   return roots_of({{weighted(0, 6), weighted(0, -5) + weighted(1, 18) + weighted(2, -9) + weighted(3, 2),
                     weighted(0, 2) + weighted(1, -9) + weighted(2, 18) + weighted(3, -5), weighted(3, 6)},
                    error});

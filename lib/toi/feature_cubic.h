@@ -60,8 +60,8 @@ OpenPart roots_of(const Cubic& cubic);
 
 /// The part of an interval in which the volume of three corners may be 0. The volume times `weight` is a cubic in time.
 /// The corners and weights are given at the beginning of the interval, after one and two thirds of it, and at its end.
-/// Components are below 2^63 and within `ball`. Weights, Q28, are from 1 to 32, with an error below 2 units in the last
-/// place.
+/// Components are below 2^63 in magnitude, with an error of at most `ball`. Weights, Q28, are from 1 to 32, with an
+/// error below 2 units in the last place.
 OpenPart reduced_roots(const Vec64 (&corner)[4][3], const int64_t (&weight)[4], int64_t ball);
 
 }  // namespace DETENT_NAMESPACE

@@ -27,11 +27,11 @@ struct RotationBound {
   int64_t angle_in(int64_t length) const { return (over_time(angle, length) >> 16) + 1; }
 };
 
-/// Two bodies whose positions move in straight lines.
+/// Bounds on the rotations of two bodies whose positions move in straight lines.
 struct SweptPair {
   RotationBound bound_a, bound_b;
 
-  /// As RotationBound::bend(), for the difference of any point of A and any point of B.
+  /// A bound as RotationBound::bend(), but for the path of the difference of a point of A and a point of B.
   int64_t bend(int64_t length) const { return bound_a.bend(length) + bound_b.bend(length); }
   /// Bound on the relative rotation of the bodies over an interval of this length, Q30 rad.
   int64_t angle_in(int64_t length) const { return bound_a.angle_in(length) + bound_b.angle_in(length); }
@@ -59,8 +59,8 @@ struct Ends {
   PlacedPair begin, end;
 };
 
-/// Features of two bodies in a motion. `Motion` has at(), bend(), angle_in() and ball() with the meaning of
-/// SteadyMotion's.
+/// Features of two bodies in a motion. `Motion` has at(), bend(), angle_in() and ball(), which mean the same as in
+/// SteadyMotion.
 template <class Motion>
 struct FeaturePath {
   const Motion& motion;
@@ -68,7 +68,7 @@ struct FeaturePath {
   FeatureKind kind;
   bool swapped;     ///< the corners that FeatureKind assigns to A belong to B
   Vec64 corner[4];  ///< in the axes of their bodies, 2^-46 m
-  int64_t ball;     ///< error of a difference at either end of an interval
+  int64_t ball;     ///< error bound of a difference of corners at either end of an interval
 
   FeatureSpan span(int64_t from, int64_t to) const {
     FeatureSpan span;

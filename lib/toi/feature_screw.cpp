@@ -10,7 +10,7 @@ struct ScrewPath {
   Vec64 corner[4];  ///< in A's axes, 2^-46 m; B's are relative to B's position at the start
   ScrewMotion screw;
   int64_t bend;  ///< bound on the distance of a corner from its chord over the whole step
-  int64_t ball;  ///< error of a difference at either end of an interval
+  int64_t ball;  ///< error bound of a difference of corners at either end of an interval
 
   FeatureSpan span(int64_t from, int64_t to) const {
     FeatureSpan span;

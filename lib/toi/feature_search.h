@@ -16,7 +16,7 @@ constexpr int64_t largest_component(const Vec64& v) {
              static_cast<int64_t>(magnitude_64(v.z))));
 }
 
-/// Corners, displacements and offsets lie within 2^14 m.
+/// Components of corners, displacements and offsets are at most 2^14 m in magnitude.
 inline constexpr int k_range_bits = 14;
 
 /// Whether every component, 2^-46 m, is within 2^bits m.
@@ -61,7 +61,7 @@ inline void set_differences(FeatureKind kind, const Vec64 (&corner)[4], Vec64 (&
 }
 constexpr int difference_count(FeatureKind kind) { return kind == FeatureKind::vertex_face ? 3 : 4; }
 
-/// The largest component, in magnitude, of any edge of two features.
+/// The largest component, in magnitude, of any edge of the two features.
 inline int64_t size_of(FeatureKind kind, const Vec64 (&corner)[4]) {
   const auto edge = [&corner](int a, int b) { return largest_component(add(corner[b], negate(corner[a]))); };
   if (kind == FeatureKind::edge_edge) return larger(edge(0, 1), edge(2, 3));
@@ -69,8 +69,9 @@ inline int64_t size_of(FeatureKind kind, const Vec64 (&corner)[4]) {
 }
 
 /// Returns the gap below which features count as touching at the beginning of an interval that may hold a contact. It
-/// is larger than the distance beyond which open_part() is certain to be empty. So an interval that is short enough is
-/// either ruled out, or its features are near at its beginning. The rest of k_feature_tolerance is for rounding.
+/// is larger than the distance beyond which the result of open_part() is certainly empty. Therefore a short enough
+/// interval is either ruled out, or its features are nearer than the gap at its beginning. k_feature_tolerance is
+/// larger than the gap, because it includes the rounding.
 constexpr int64_t near_gap(int64_t size, int64_t ball) { return larger(size >> 22, 2 * ball + 8); }
 
 /// value times part, with `part` in Q30. Rounding: down. Range: 0 <= part <= 1.
@@ -90,11 +91,12 @@ struct Interval {
 /// Searches the first contact in intervals of time, earliest first. Cuts off the parts of an interval that are
 /// certainly clear and halves the rest. An interval ends the search with a hit if the features are near at its
 /// beginning or if it is too short to halve. The result is clear if no interval is left, and undecided after
-/// k_feature_intervals_max intervals. `Path` has span(from, to), which returns a FeatureSpan. It may have roots(from,
-/// to), if it can bound the times of coplanar corners better than by chords.
+/// k_feature_intervals_max intervals. `Path` has span(from, to), which returns a FeatureSpan. It may also have
+/// roots(from, to), if it can bound the times of coplanar corners more tightly than the chords in a FeatureSpan do.
 template <class Path>
 void search(const Path& path, int64_t gap, FeatureToi& result, Interval now = {0, k_time_end}) {
-  // Each waiting interval is at most half as long as the one before it, so there are at most k_time_bits of them.
+  // Each waiting interval is at most half as long as the one that was added before it. So at most k_time_bits intervals
+  // wait.
   Interval waiting[k_time_bits + 1];
   int count = 0;
   result = {};

@@ -49,7 +49,7 @@ bool parted(const Vec32* point, int count, int64_t ball) {
     }
     const int64_t length = int64_t{magnitude_32(direction.x)} + magnitude_32(direction.y) + magnitude_32(direction.z);
     if (least > ball * length) return true;
-    // The loop ends: the points are finitely many, and each is nearer than those before it.
+    // The loop ends, because the points are finitely many and each new vertex brings the simplex nearer to the origin.
     if (!simplex.insert(nearest) || simplex.holds_origin()) return false;
     direction = simplex.direction();
   }
@@ -76,7 +76,7 @@ struct Moment {
         middle(add(cross(span.from(i), span.to(j)), cross(span.to(i), span.from(j)))),
         to(cross(span.to(i), span.to(j))) {}
 
-  /// Bound on the sum of the magnitudes of its components over the interval.
+  /// Bound on the sum of the magnitudes of the cross product's components over the interval.
   int64_t bound() const {
     const int64_t begins = magnitude_sum(from), ends = magnitude_sum(to), between = magnitude_sum(middle) / 2 + 1;
     const int64_t end = begins > ends ? begins : ends;
@@ -127,7 +127,8 @@ OpenPart open_part(const FeatureSpan& span) {
 }
 
 bool begins_near(const FeatureSpan& span, int64_t gap) {
-  // Only the corners at the beginning count: those at the end may be so far away that rounding would hide the gap.
+  // Only the corners at the beginning decide how many bits are dropped. Corners at the end may be so far away that the
+  // rounding would hide the gap.
   uint64_t magnitudes = 0;
   for (int i = 0; i < span.count; ++i) magnitudes |= magnitude_bits(span.from[i]);
   const Shortening is(magnitudes, 0);

@@ -36,8 +36,9 @@ struct PlacedFeatures {
     if (features.count_b == 2) edge_b = subtract(placed_point(pair, *pair.b, frames.b, features.b[1]), to);
   }
 
-  /// The axis between the features. False if they touch or their edges are parallel. For two edges, `side` selects the
-  /// sign of the cross product; at 0 the function sets it so that the axis points to the side of `towards`.
+  /// Sets `axis` to the axis between the features. Returns false if the features touch or their edges are parallel. For
+  /// two edges, `side` is the sign of the cross product; if it is 0, the function sets it so that the axis points to
+  /// the side of `towards`.
   bool axis(const Vec32& towards, int& side, FeatureAxis& axis) const {
     Vec64 across;
     if (!is_zero(edge_a) && !is_zero(edge_b)) {
@@ -149,8 +150,8 @@ int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Sim
   const int64_t kept = !edges && distance * 3 / 10 > floor ? distance * 3 / 10 : floor;
   const int64_t speed = closing_speed(pair, features, frames, widest, normal);
   if (speed > 0) length = part_rounded(widest.length, ratio(distance - kept, speed));
-  // After a close approach, the closing speed does not tell how long an axis is valid. The last progress then limits
-  // the length.
+  // After a close approach, the closing speed does not tell how long an axis is valid. The time that the previous axis
+  // gained then limits the length.
   if (progress < widest.length / 4) {
     const int64_t hope = 4 * progress + (int64_t{1} << 20);
     if (length > hope) length = hope;

@@ -8,7 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int64_t k_raw_rotation_max = int64_t{1} << (k_metre_bits + 16);  ///< rad
+constexpr int64_t k_raw_rotation_max = int64_t{1} << (k_metre_bits + 16);  ///< 2^16 rad, in 2^-46 rad
 /// Bound on the sum of all roundings in a certified separation, ulps of the block. Derived in
 /// docs/design/time_of_impact.md, "The rounding budget".
 constexpr int32_t k_budget = 32;
@@ -68,7 +68,7 @@ int64_t set_window(MovingPair& pair, int64_t distance_max) {
       return 0;
     }
   }
-  const int64_t leave = root - along;  // end of the window times `square`, rounded up by the root
+  const int64_t leave = root - along;  // end of the window times `square`; rounded up, as the root is
   if (leave >= 0 && leave < square) {
     const int64_t to = time_quotient(leave, square);
     if (to < k_time_end - 1) pair.to = to + 1;
@@ -204,7 +204,7 @@ Status set_block(const Vec64& offset, const Vec64& displacement, MovingPair& pai
   pair.core_b = ulps_above(raw_core_radius(b), pair.exponent);
   pair.radius_a = raw_radius(a);
   pair.radius = ulps_above(balls, pair.exponent);
-  // 0.9 2^-20 of the larger core's diameter, and at least four times the rounding budget.
+  // The tolerance is 0.9 2^-20 of the larger core's diameter, but at least four times the rounding budget.
   const int64_t larger = pair.core_a > pair.core_b ? pair.core_a : pair.core_b;
   const int32_t wanted = static_cast<int32_t>((larger * 59) >> 25);
   pair.tolerance = wanted > 4 * k_budget ? wanted : 4 * k_budget;

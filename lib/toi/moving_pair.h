@@ -24,7 +24,7 @@ constexpr Vec64 over_time(const Vec64& v, int64_t time) {
 /// denominator > 0.
 int64_t time_quotient(int64_t numerator, int64_t denominator);
 
-/// Sets the outcome and the time; leaves the counts as they are.
+/// Sets the outcome of `result` to clear and its time to 1. Leaves its counts as they are.
 inline void set_clear(TimeOfImpact& result) {
   result.outcome = ToiOutcome::clear;
   result.time = Fraction(1.0);
@@ -34,8 +34,8 @@ inline void set_clear(TimeOfImpact& result) {
 struct Turning {
   Quat32 start;
   Matrix32 start_matrix;
-  bool turns;             ///< false also if the core is a point
-  Vec32 axis;             ///< of the rotation, world axes, Q30
+  bool turns;             ///< whether the shape rotates; false also if its core is a point
+  Vec32 axis;             ///< axis of the rotation, world axes, Q30
   int64_t rate;           ///< 2^-46 revolutions over the step
   Vec64 rotation_vector;  ///< 2^-46 rad over the step
   int64_t angle;          ///< |rotation_vector|, rounded up
@@ -67,20 +67,22 @@ struct MovingPair {
   const Convex* a;
   const Convex* b;
   Turning turning_a, turning_b;
-  Vec64 offset;                            ///< from A's position to B's at the start, 2^-46 m
-  Vec64 displacement;                      ///< of B relative to A over the step, 2^-46 m
-  bool absolute = false;                   ///< A and B are moved separately before the difference is taken
-  Vec64 displacement_a;                    ///< translation of A over the step, 2^-46 m
-  Vec64 offset_whole, displacement_whole;  ///< the same, with the part along a resting half-space's plane
-  bool planar;                             ///< one of the two shapes is a half-space
-  int64_t from, to;                        ///< the window in which the shapes can touch; from > to: never
-  int64_t last = k_time_end;               ///< a search may end as clear when it has passed this time
-  int exponent;            ///< 2^exponent m is the pair's unit of length; the block's ulp is 2^-30 of it
-  int32_t core_a, core_b;  ///< core radii, ulps of the block, rounded up
-  int64_t distance_max;    ///< bound on the distance of the centres in the window, ulps
-  int64_t radius_a;        ///< radius of A's ball (its rounding), 2^-46 m
-  int32_t radius;          ///< sum of both balls' radii, ulps, rounded up
-  int32_t tolerance;       ///< ulps: a distance of at most radius + tolerance is a hit
+  Vec64 offset;           ///< from A's position to B's at the start, 2^-46 m
+  Vec64 displacement;     ///< translation of B relative to A over the step, 2^-46 m
+  bool absolute = false;  ///< A and B are moved separately before the difference is taken
+  Vec64 displacement_a;   ///< translation of A over the step, 2^-46 m
+  /// The full offset and displacement of the bodies. If a half-space does not rotate, `offset` and `displacement`
+  /// contain only the part along its normal; otherwise they are equal to these members.
+  Vec64 offset_whole, displacement_whole;
+  bool planar;                ///< one of the two shapes is a half-space
+  int64_t from, to;           ///< the window in which the shapes can touch; from > to: never
+  int64_t last = k_time_end;  ///< a search may end as clear when it has passed this time
+  int exponent;               ///< 2^exponent m is the pair's unit of length; the block's ulp is 2^-30 of it
+  int32_t core_a, core_b;     ///< core radii, ulps of the block, rounded up
+  int64_t distance_max;       ///< bound on the distance of the centres in the window, ulps
+  int64_t radius_a;           ///< radius of the ball that rounds A's core, 2^-46 m
+  int32_t radius;             ///< sum of the radii of both balls that round the cores, ulps, rounded up
+  int32_t tolerance;          ///< ulps: a distance of at most radius + tolerance is a hit
 
   Frames at(int64_t time) const { return {time, turning_a.at(time), turning_b.at(time), offset_at(time)}; }
   Vec32 offset_at(int64_t time) const {
@@ -102,8 +104,8 @@ struct MovingPair {
 /// of 2^15 m or more, or of the offset of 2^16 m or more if the spheres may touch or one shape is a half-space.
 Status set_block(const Vec64& offset, const Vec64& displacement, MovingPair& pair);
 /// set_turnings() sets the rotations. set_displacements() sets the translations, the window and the block. The shapes
-/// of the pair must be set. If one shape is a half-space, call set_turnings() first; otherwise set_displacements() does
-/// not need it. Errors: as time_of_impact().
+/// of the pair must be set. If one shape is a half-space, set_turnings() must be called first; otherwise the order does
+/// not matter. Errors: as time_of_impact().
 Status set_turnings(const Motion& motion_a, const Motion& motion_b, MovingPair& pair);
 Status set_displacements(const Motion& motion_a, const Motion& motion_b, MovingPair& pair);
 /// Sets all of the pair: shapes, rotations, translations and block. Errors: as time_of_impact().

@@ -53,11 +53,11 @@ inline int64_t screw_ball(int64_t radius, const RelativePose& start, const Relat
   return (radius >> 24) + ((length_above(start.position) + length_above(end.position)) >> 26) + 64;
 }
 
-/// The part of an interval in which the features of a path may be coplanar. `Path` has set_differences_at(), a kind and
-/// a ball. The condition that a moving line meets a line at rest, or a moving point a plane at rest, is linear in the
-/// coordinates of the moving feature. These coordinates contain the entries of the rotation, which are quadratic in t
-/// after multiplication by 1 + t^2 g^2, and products of such entries with the displacement along the axis, which is
-/// linear in t. The condition is therefore a cubic.
+/// The part of an interval in which the features of a path may be coplanar. `Path` has set_differences_at(), `kind` and
+/// `ball`, as ScrewPath. The condition that a moving line meets a line at rest, or a moving point a plane at rest, is
+/// linear in the coordinates of the moving feature. These coordinates contain the entries of the rotation, which are
+/// quadratic in t after multiplication by 1 + t^2 g^2, and products of such entries with the displacement along the
+/// axis, which is linear in t. The condition is therefore a cubic.
 template <class Path>
 OpenPart screw_roots(const Path& path, const ScrewMotion& screw, int64_t from, int64_t to) {
   Vec64 corners[4][3];

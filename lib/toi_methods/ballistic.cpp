@@ -12,7 +12,7 @@ namespace {
 
 constexpr int k_steps_max = 12;                       ///< steps of Newton's method along one normal, all certified
 constexpr int64_t k_quarter_turn = int64_t{1} << 32;  ///< 2^-34 revolutions
-constexpr int64_t k_phase_error = 2;       ///< of a half angle, 2^-34 revolutions: the roundings of rate and shift
+constexpr int64_t k_phase_error = 2;  ///< error of a half angle, 2^-34 revolutions, by the roundings of rate and shift
 constexpr int64_t k_sine_error_above = 1;  ///< error of sine_cosine_raw(), 2^-30, rounded up
 
 /// Bounds on how much a motion has reduced the separation, and on the speed at which the separation decreases further.
@@ -21,10 +21,10 @@ struct Taken {
   int64_t speed;         ///< ulps over the step
 };
 
-/// Bound on how much a body's rotation reduces the separation along a normal.
+/// A bound on the amount by which a body's rotation reduces the separation along a normal.
 class Swing {
  public:
-  /// `core`: its core radius, ulps.
+  /// `core`: the core radius of the body, ulps.
   Swing(const Turning& turning, const Vec32& normal, int64_t core) : turning_(turning) {
     if (!turning.turns || core == 0) return;
     const Vec32 across = round_shift(cross(normal, turning.axis), 30);
@@ -66,7 +66,7 @@ int64_t ballistic_time(const MovingPair& pair, const Frames& frames, const Vec32
     const int64_t left = room + over_time(speed, elapsed) - a.displacement - b.displacement;
     if (left <= 0) break;
     const int64_t fall = a.speed + b.speed - speed;
-    if (fall <= 0) return pair.to;  // fall only decreases with time
+    if (fall <= 0) return pair.to;  // `fall` only decreases with time, so the gap does not close
     const int64_t gain = time_quotient(left, fall);
     if (gain >= rest - elapsed) return pair.to;
     elapsed += gain;

@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int64_t k_raw_pi = 221069929750888;  // 2^-46, rounded down
+constexpr int64_t k_raw_pi = 221069929750888;  // pi, 2^-46 rad, rounded down
 
 /// A rotation whose quaternion moves in a straight line from one quaternion to another, with the sign that makes the
 /// line shorter.
@@ -93,7 +93,8 @@ struct Quintic {
   }
 };
 
-/// 240 times the polynomial through values, below 2^49, at six evenly spaced times.
+/// 240 times the polynomial of degree five that has the values `value`, below 2^49 in magnitude, at six evenly spaced
+/// times.
 Quintic through(const int64_t (&value)[k_degree + 1], int64_t noise) {
   constexpr int64_t k_first[] = {-308, 1200, -1200, 800, -300, 48};
   constexpr int64_t k_second[] = {269, -1450, 2950, -2300, 925, -154};
@@ -184,7 +185,8 @@ struct NumericalRoots {
           return;
         }
         if (depth != 0) continue;
-        // The error of the volume may have moved the root: search a small interval around it once more.
+        // The error of the volume may have moved the root. Therefore a small interval around the piece is searched once
+        // more.
         const int64_t margin = (interval.to - interval.from) >> 8, end = piece.from + piece.length;
         find(path, gap,
              {larger(piece.from - margin, interval.from), interval.to - end < margin ? interval.to : end + margin}, 1,
@@ -200,8 +202,8 @@ struct NumericalRoots {
   }
 };
 
-/// Sets the rotation of one body and its bound. Errors: as time_of_impact(); out_of_range for a rotation of more than
-/// pi.
+/// Sets the rotation of one body and a bound on the paths of its points. Errors: out_of_range for a rotation of more
+/// than pi; other errors as time_of_impact().
 Status set_line(const Motion& motion, int64_t distance_max, QuaternionLine& line, RotationBound& bound) {
   Turning turning;
   if (const Status status = turning_of(motion, turning); status != Status::ok) return status;
@@ -210,7 +212,7 @@ Status set_line(const Motion& motion, int64_t distance_max, QuaternionLine& line
   const Quat32 end = turning.rotation_at(k_time_end);
   const int32_t from[4] = {line.start.x, line.start.y, line.start.z, line.start.w},
                 to[4] = {end.x, end.y, end.z, end.w};
-  uint64_t squares[2] = {0, 0};  // of half the difference and of half the sum
+  uint64_t squares[2] = {0, 0};  // squared lengths of half the difference and of half the sum
   int64_t along = 0;
   for (int i = 0; i < 4; ++i) along += int64_t{from[i]} * to[i] >> 2;
   for (int i = 0; i < 4; ++i) {
@@ -219,8 +221,8 @@ Status set_line(const Motion& motion, int64_t distance_max, QuaternionLine& line
     squares[0] += static_cast<uint64_t>(line.displacement[i] / 2 * (line.displacement[i] / 2));
     squares[1] += static_cast<uint64_t>(sum * sum);
   }
-  // With k the tangent of a quarter of the angle, the angular speed is at most 4 k. With the angular acceleration, the
-  // acceleration of a point is at most 16.9 k^2 times its distance from the position.
+  // With k the tangent of a quarter of the angle, the angular speed is at most 4 k. Including the part of the angular
+  // acceleration, the acceleration of a point is at most 16.9 k^2 times its distance from the body's position.
   const int64_t k = ((int64_t{square_root_floor(squares[0])} + 2) << 30) / square_root_floor(squares[1]);  // Q30
   bound = {distance_max, turning.turns ? (33 * k) << 13 : 0};
   return Status::ok;

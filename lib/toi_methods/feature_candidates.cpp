@@ -33,7 +33,7 @@ Vec64 CandidateSide::corner(uint32_t vertex) const {
 }
 
 int64_t CandidateSide::metres(int64_t along) const {
-  const int n = 60 - k_metre_bits - convex_.exponent;  // -1 for the largest
+  const int n = 60 - k_metre_bits - convex_.exponent;  // -1 for the largest exponent
   return n < 0 ? along << -n : along >> n;
 }
 
@@ -66,8 +66,8 @@ int64_t separation(const PlacedPair& pair, const Vec32& direction, const Candida
 }
 
 bool choose(const StepPart& part, const Vec32& normal, CandidateSide& a, CandidateSide& b, int64_t (&apart)[2]) {
-  // Along a fixed direction, the minimum over points on chords is concave in time. The amount by which a point is
-  // beyond this minimum is therefore convex, and greatest at an end.
+  // Points move on chords here. Along a fixed direction, the minimum over such points is concave in time. The amount by
+  // which a point is beyond this minimum is therefore convex, and greatest at the beginning or at the end.
   const PlacedPair* const end[2] = {&part.begin, &part.end};
   Vec32 of_a[2], of_b[2];
   int64_t least_a[2], least_b[2];

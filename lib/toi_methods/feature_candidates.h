@@ -62,8 +62,8 @@ class CandidateSide {
     for (int i = 0; i < count; ++i) most = larger(most, dot(direction_[end], polytope_.vertex(vertex[i])));
     return metres(most);
   }
-  /// Calls visit(vertex) for the candidate vertices that are the farthest in a direction, or can be after a rotation by
-  /// `angle`, Q30 rad.
+  /// Calls visit(vertex) for the candidate vertices that are the farthest in `direction`, or can become the farthest if
+  /// the body rotates by at most `angle`, Q30 rad.
   template <class Visit>
   void for_each_extreme(const Vec32& direction, int64_t angle, Visit&& visit) const {
     const int64_t least = farthest(direction) - 2 * int64_t{convex_.core_radius} * (angle + k_unit_error);
@@ -71,14 +71,14 @@ class CandidateSide {
       if (dot(direction, polytope_.vertex(chosen_[i])) >= least) visit(uint32_t{chosen_[i]});
     }
   }
-  /// Computes the fan of an edge. False for an edge that lies within a face.
+  /// Sets `fan` for an edge. Returns false for an edge that lies within a face.
   bool fan(uint32_t from, uint32_t to, const Matrix32& rotation, EdgeFan& fan) const;
 
-  /// Error of the product of two rotated unit vectors, 2^-30.
+  /// Error bound of the dot product of two rotated unit vectors, 2^-30.
   static constexpr int64_t k_unit_error = 64;
 
  private:
-  /// The support distance along a direction, in Q60 of the shape's unit.
+  /// The largest coordinate of a vertex along a direction, in Q60 of the shape's unit.
   int64_t farthest(const Vec32& direction) const {
     return dot(direction, local_support(convex_, hull_, direction, 0).local);
   }
@@ -97,12 +97,13 @@ class CandidateSide {
 int64_t separation(const PlacedPair& pair, const Vec32& direction, const CandidateSide& a, const CandidateSide& b);
 
 /// Selects on both sides the vertices whose paths can bring them together along `normal`, which points from A to B in
-/// world axes. Returns whether there are any. `apart`: as FeaturePairs::apart_.
+/// world axes. Returns whether there are any. Sets `apart`, 2^-46 m: the distance of the positions along `normal` at
+/// the beginning and at the end, minus the bend.
 bool choose(const StepPart& part, const Vec32& normal, CandidateSide& a, CandidateSide& b, int64_t (&apart)[2]);
 
 /// A world direction in the axes of a body.
 inline Vec32 in_axes(const Matrix32& rotation, const Vec32& direction) { return rotate_inverse(rotation, direction); }
-/// The normal of a face, in world axes, of length 1 in Q30; zero for a degenerate one.
+/// The normal of a face, in world axes, of length 1 in Q30; zero for a degenerate face.
 Vec32 face_normal(const Polytope& polytope, uint32_t i, uint32_t j, uint32_t k, const Matrix32& rotation);
 
 }  // namespace DETENT_NAMESPACE

@@ -11,7 +11,7 @@ inline namespace DETENT_NAMESPACE {
 /// these angles, Q30 rad.
 inline constexpr int k_lengths = 3;
 inline constexpr int64_t k_part_turn[k_lengths] = {1 << 30, 1 << 28, 1 << 25};
-/// The maximum number of parts; after them the result is `undecided`.
+/// The maximum number of parts. If they do not suffice, the result is `undecided`.
 inline constexpr uint32_t k_parts_max = 4096;
 
 /// Search strategy for FeaturePairs: finds the certified first contact of two features in an interval.
@@ -26,7 +26,7 @@ struct CertifiedSearch {
 template <class Motion, class Search = CertifiedSearch>
 class FeaturePairs {
  public:
-  /// Range: Polytope::is_one(a), is_one(b).
+  /// Range: both shapes are polytopes (Polytope::is_one()).
   FeaturePairs(const Convex& a, const Convex& b, const Motion& motion) : a_(a), b_(b), motion_(motion) {
     const int64_t core_a = raw_core_radius(a), core_b = raw_core_radius(b);
     cores_ = core_a + core_b;
@@ -70,7 +70,7 @@ class FeaturePairs {
 
  private:
   /// Finds the nearest points at the beginning of the part, and the normal between them. Returns whether the bodies
-  /// touch there: if `hit`, if they overlap, or if they are near. Then also sets the result's normal and point.
+  /// touch there: if `hit`, or if they overlap or are near. If they touch, also sets the result's normal and point.
   bool look(bool hit, TimeOfImpact& result) {
     const int exponent = raw_exponent_above(saturated_sum(length_bound(part_.begin.offset), cores_ + 64));
     const Placed a = place(a_.convex(), part_.begin.a, exponent), b = place(b_.convex(), part_.begin.b, exponent);
@@ -95,8 +95,8 @@ class FeaturePairs {
   }
 
   /// Chooses the end of a part that begins at `from`. The part gets the longest allowed length over which the normal
-  /// certainly separates the bodies. If there is none, it gets the shortest allowed length, or ends earlier, about when
-  /// the bodies overlap by `depth_` along the normal.
+  /// certainly separates the bodies. If there is no such length, the part gets the shortest allowed length, or ends
+  /// earlier: at about the time at which the bodies overlap by `depth_` along the normal.
   void set_part(int64_t from, int64_t to) {
     for (int i = 0; i < k_lengths; ++i) {
       const int64_t length = to - from < length_max_[i] ? to - from : length_max_[i];
@@ -104,14 +104,16 @@ class FeaturePairs {
       const int64_t last = separation(part_.end, normal_, a_, b_) - part_.bend;
       if (last >= 0) return;
       if (i < k_lengths - 1 || last >= -depth_) continue;
-      // The separation on chords is concave in time, so the overlap there is not deeper.
+      // The separation of points that move on chords is concave in time, so the overlap at the new end is at most
+      // `depth_`.
       const int64_t first = larger(separation(part_.begin, normal_, a_, b_), 0);
       const int64_t shorter = over_time(length, time_quotient(first + depth_, first - last));
       if (shorter > 0) set_end(from, from + shorter);
     }
   }
 
-  /// Tests the features that are nearest at the beginning. If they touch in the part, few others can touch earlier.
+  /// Tests the pair of features that is nearest at the beginning. If these features touch in the part, few other pairs
+  /// can touch earlier.
   void guess(FeatureToi& first) {
     uint32_t of_a[4], of_b[4];
     const int count_a = distinct(&SimplexVertex::a, of_a), count_b = distinct(&SimplexVertex::b, of_b);
@@ -163,7 +165,7 @@ class FeaturePairs {
     });
   }
 
-  /// Tests all edges of A against these edges of B.
+  /// Tests all edges of A against the `count` edges of B in `fans`.
   void find_on_edges(const EdgeFan* fans, int count, FeatureToi& first) {
     if (count == 0) return;
     for_each_edge(a_, part_.begin.a, [&](const EdgeFan& of_a) {
@@ -221,12 +223,12 @@ class FeaturePairs {
   int64_t length_max_[k_lengths];  ///< limits for the length of a part
   StepPart part_;
   Vec32 normal_;
-  int64_t apart_[2];  ///< distance of the positions along normal_ at both ends of the part, less the bend
+  int64_t apart_[2];  ///< distance of the positions along normal_ at both ends of the part, minus the bend
   Simplex simplex_;
 };
 
-/// The time of impact of two polytopes by their features, in the step's own motion. Certified: never late. Errors:
-/// bad_argument for a shape that is not a polytope; as time_of_impact().
+/// The time of impact of two polytopes by their features, in the step's own motion. The result is certified: never
+/// late. Errors: bad_argument for a shape that is not a polytope; other errors as time_of_impact().
 Status time_of_impact_by_features(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b,
                                   TimeOfImpact& result);
 

@@ -10,7 +10,7 @@ namespace {
 /// The screw motion of B relative to A, in A's axes.
 struct RelativeScrew {
   ScrewMotion screw;
-  Matrix32 start;      ///< B's rotation
+  Matrix32 start;      ///< B's rotation at the start
   int64_t bend_whole;  ///< bound on the distance of the path of a point of B from its chord over the step, 2^-46 m
   int64_t angle;       ///< bound on the relative angular speed, Q30 rad per step
   int64_t rounding;

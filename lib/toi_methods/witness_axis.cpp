@@ -14,7 +14,7 @@ enum class MovesWith {
   nothing,
   a,      ///< a face of A, or an edge of A towards a vertex
   b,      ///< a face of B, or an edge of B towards a vertex
-  edges,  ///< an edge of each
+  edges,  ///< an edge of A and an edge of B
 };
 
 MovesWith moves_with(const MovingPair& pair, const NearFeatures& features) {
@@ -39,8 +39,8 @@ class Witness {
   }
 
   /// Finds a time, from that of `frames` on, after which the cores are less than `floor` ulps apart along the witness.
-  /// Returns the end of the window if they are at least `floor` ulps apart there. Returns the time of `frames` if their
-  /// separation is then at most `floor` plus half the tolerance.
+  /// Returns the end of the window if the cores are at least `floor` ulps apart at that end. Returns the time of
+  /// `frames` if their separation at that time is at most `floor` plus half the tolerance.
   int64_t leads_to(const Frames& frames, int32_t floor, uint32_t& passes) const {
     // Any separation within [0, 2 aim] is good enough: together with the floor it is within the tolerance.
     const int64_t aim = int64_t{pair_.tolerance} << 24;
@@ -71,7 +71,7 @@ class Witness {
   }
 
  private:
-  /// The separation along the witness less `floor` ulps; Q56.
+  /// The separation along the witness minus `floor` ulps, Q56.
   int64_t separation(const Frames& frames, int32_t floor, uint32_t& passes) const {
     ++passes;
     Vec32 normal = normal_;

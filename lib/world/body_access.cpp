@@ -15,7 +15,7 @@ namespace {
 
 constexpr Scaled k_default_density = 1000.0;
 
-/// The properties of a body for a getter; null if the id is not valid.
+/// The data of a body, as a getter reads it. `properties` is null if the id is not valid.
 struct Read {
   StateView<const uint8_t> state;
   const BodyProperties* properties = nullptr;
@@ -80,8 +80,8 @@ struct Change {
     motion = state.motions[slot];
   }
   const Quat& rotation() const { return state.poses[slot].rotation; }
-  /// Gives the body this angular velocity, m/s, in the unit of length of the changed properties. Errors: bad_argument,
-  /// out_of_range.
+  /// Sets the angular momentum of the body for this angular velocity, m/s (angular_velocity.h), with the unit of length
+  /// and the inertia of the changed properties. Errors: bad_argument, out_of_range.
   Status turn_with(const Vec3<Real>& angular_velocity) {
     const Real zero = 0.0;
     const bool turns = !(angular_velocity == Vec3<Real>{zero, zero, zero});
@@ -98,7 +98,7 @@ struct Change {
     state.properties[slot] = properties;
     state.motions[slot] = motion;
   }
-  /// As make(), but also ends the body's contacts, which the change invalidates.
+  /// As make(), but also removes the body's contacts, because the change makes them invalid.
   void make_anew() {
     end_contacts(state, slot);
     make();
@@ -209,14 +209,14 @@ Status get_velocity_at(const World& world, BodyId id, const Vec3<Real>& arm, Vec
   const FloatEnvironment environment;
   const Read body(world, id);
   if (body.properties == nullptr) return Status::bad_id;
-  // The arm is in units of twice the body's unit of length, so that an arm of twice the bounding radius fits a Unit.
+  // The arm is halved and stored in the body's unit of length, so that an arm of twice the bounding radius fits a Unit.
   const int exponent = body.properties->size_exponent + 1;
   if (!within(arm, real_from_unit(body.properties->bounding_radius, exponent))) return Status::out_of_range;
   const BodyMotion& motion = body.state.motions[body.slot];
   const Vec3<Unit> halved = unit_from_real(arm, exponent);
   const Vec3<Real> half = cross(
       angular_velocity_of(*body.properties, body.state.poses[body.slot].rotation, motion.angular_momentum), halved);
-  if (!within(half, Real(56000.0))) return Status::out_of_range;  // twice this plus a velocity fits a Real
+  if (!within(half, Real(56000.0))) return Status::out_of_range;  // within this limit, 2 `half` + velocity fits a Real
   velocity = motion.linear_velocity + scale_by_power(half, 1);
   return Status::ok;
 }

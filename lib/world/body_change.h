@@ -16,7 +16,7 @@ inline void wake_slot(StateView<uint8_t>& state, uint32_t slot) {
   state.activities[slot].still_ticks = 0;
   step.active.set(slot);
 }
-/// Adds the body to the active set, so that the next step evaluates it again. A sleeping body stays asleep.
+/// Adds the body to the active set, so that the next step evaluates it again. Does not wake a sleeping body.
 inline void look_at_again(StateView<uint8_t>& state, uint32_t slot) {
   state.world.idle = 0;
   cache_of(state).active.set(slot);

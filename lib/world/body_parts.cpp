@@ -100,7 +100,8 @@ Status make_motion(const BodyProperties& properties, const Quat& rotation, const
                    const Vec3<Real>& angular_velocity, BodyMotion& motion) {
   if (!within(velocity, k_speed_max)) return Status::out_of_range;
   const int32_t exponent = properties.size_exponent;
-  // |angular velocity| <= k_angular_velocity_max 2^-exponent, or any Real if that limit exceeds the range of Real.
+  // Each component is at most k_angular_velocity_max 2^-exponent. If this exceeds the range of Real, every Real is
+  // permitted.
   const Real limit = exponent < -1 ? k_real_max : scale_by_power(k_angular_velocity_max, -exponent);
   if (!within(angular_velocity, limit)) return Status::out_of_range;
   const bool moves = !(velocity == k_zero_vector), turns = !(angular_velocity == k_zero_vector);

@@ -3,7 +3,8 @@
 
 #include "state/view.h"
 
-/// Functions that check and set single properties of a body. The calls that create and change bodies use them.
+/// Each of these functions checks and sets one kind of property of a body. The calls that create and change bodies use
+/// them.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -19,13 +20,14 @@ Status set_body_inverse_inertia(const World& world, BodyProperties& properties);
 Status set_body_inertia(const Vec3<Scaled>& inertia, BodyProperties& properties);
 /// Sets the mass from the volume of the shape and `density`, kg/m^3. Errors: out_of_range.
 Status set_body_density(const World& world, Scaled density, BodyProperties& properties);
-/// Each function checks and sets the properties in its name. Errors: bad_argument, out_of_range.
+/// Each of the next four functions checks and sets the properties that its name gives. Errors: bad_argument,
+/// out_of_range.
 Status set_body_material(const Material& material, BodyProperties& properties);
 Status set_body_damping(Real linear, Real angular, BodyProperties& properties);
 Status set_body_gravity_scale(Real scale, BodyProperties& properties);
 Status set_body_rotation_locks(uint32_t locks, BodyProperties& properties);
 
-/// Makes the pose from a position and a rotation, which is normalised. Errors: out_of_range, not_normalised.
+/// Makes a pose from a position and a rotation, and normalises the rotation. Errors: out_of_range, not_normalised.
 Status make_pose(const Position& position, const Quat& rotation, BodyPose& pose);
 /// Sets the motion of a body from a velocity, m/s, and an angular velocity, rad/s, both in world axes. Errors:
 /// bad_argument, out_of_range.

@@ -37,7 +37,8 @@ __attribute__((noinline)) ContactGeometry part_geometry(const CollisionBody& a, 
   return best == nullptr ? ContactGeometry{} : *best;
 }
 
-/// The contact points at the current poses, including points that separated a little in the last step.
+/// The contact points at the current poses. Points are included up to a separation of a quarter of the smaller body's
+/// extent, because bodies may have separated a little in the last step.
 ContactGeometry geometry_of(const World& world, const StateView<const uint8_t>& state, const ContactState& contact) {
   const BodyPose &pose_a = state.poses[contact.body_a], &pose_b = state.poses[contact.body_b];
   const BodyProperties &a = state.properties[contact.body_a], &b = state.properties[contact.body_b];
@@ -78,7 +79,8 @@ Status get_contact(const World& world, uint32_t index, Contact& contact) {
   made.normal_force = divide(made.normal_impulse, scaled_from(state.world.tick_time));
 
   const ContactGeometry geometry = geometry_of(world, state, from);
-  const bool by_a = is_dynamic(a);  // points are relative to a dynamic body: a half-space's centre may be far away
+  // Arms are taken from a dynamic body, because the centre of a half-space may be far away.
+  const bool by_a = is_dynamic(a);
   const Position& centre = state.poses[mover].position;
   const int exponent = state.properties[mover].size_exponent;
   if (geometry.count != 0) made.normal = geometry.normal;

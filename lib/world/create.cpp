@@ -23,7 +23,7 @@ void set_filter(const Filter& filter, BodyProperties& properties) {
   properties.rule = filter.rule;
 }
 
-/// Computes all properties of a body except its pose and its motion. Errors: as create_body().
+/// Computes the BodyProperties of a new body from its definition. Errors: as create_body().
 Status make_properties(const World& world, const BodyDef& def, BodyProperties& properties) {
   if (const Status status = set_body_shape(world, def.shape, def.type, properties); status != Status::ok) return status;
   if (const Status status = set_body_material(def.material, properties); status != Status::ok) return status;

@@ -8,7 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The greatest closing speed of the points that received an impulse.
+/// The greatest closing speed, m/s, of the contact's points that received an impulse in this step.
 Real approach_of(const ContactWork& contact) {
   Real least = k_zero;
   for (uint32_t i = 0; i < contact.state.point_count; ++i) {
@@ -71,7 +71,7 @@ EventCount raise_contact_events(Span<const BodyPose> poses, Span<const BodyPrope
   EventWriter writer = {poses, properties, events};
   uint32_t old = 0;
   const auto old_contact = [&]() -> const ContactState& { return before[awake[old]]; };
-  /// Skips the contacts of one pair in the last step. Returns true if one of them touched.
+  /// Moves `old` past the contacts that the next pair had in the last step. Returns true if one of them touched.
   const auto pass_pair = [&] {
     const uint64_t key = key_of(old_contact());
     bool touched = false;

@@ -18,16 +18,17 @@ auto room_of(const Buffer& buffer) {
   return Span(buffer.data, buffer.data == nullptr ? 0u : buffer.capacity);
 }
 
-/// Compares the contacts of the last step with those of this step, both sorted by their bodies. Writes an event for
-/// each contact that began, continued, ended or hit. If a pair has several contacts, its events are those of the
-/// contact with the greatest closing speed. `poses`: at the start of the step. `awake`: the indices of the contacts of
-/// `before` with an awake body; all other contacts are skipped. Sets `touching` of each contact.
+/// Compares the contacts of the last step, `before`, with those of this step, `contacts`; both are sorted by their
+/// bodies. Writes the begin, touch, end and hit events of each pair. If a pair has several contacts, the point, the
+/// normal and the speed of its events are those of the contact with the greatest closing speed. `poses`: at the start
+/// of the step. `awake`: the indices of the contacts of `before` with an awake body; all other contacts are skipped.
+/// Sets `touching` of each contact.
 EventCount raise_contact_events(Span<const BodyPose> poses, Span<const BodyProperties> properties,
                                 Span<const uint32_t> awake, Span<const ContactState> before, Span<ContactWork> contacts,
                                 Span<ContactEvent> events);
 
-/// Inserts the impacts of continuous collision, as hit events, into the sorted `events`. `hits` must be in the order of
-/// time.
+/// Inserts the impacts of continuous collision, as hit events, into the sorted `events`. Updates `count`. Range: `hits`
+/// are in the order of time.
 void add_hits(Span<const BodyProperties> properties, Span<const ImpactHit> hits, Span<ContactEvent> events,
               EventCount& count);
 

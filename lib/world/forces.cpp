@@ -10,7 +10,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Computes impulse, N s, / (mass 2^exponent), m/s. Returns false if the result leaves Real's range.
+/// Sets `speed` to impulse / (mass 2^exponent), m/s. For an impulse, N s, `exponent` is 0. For an angular impulse, N m
+/// s, it is the body's size_exponent. Returns false if the result leaves Real's range.
 bool speed_from(const Vec3<Scaled>& impulse, Scaled mass, int exponent, Vec3<Real>& speed) {
   bool saturated = false;
   const Scaled over = scaled_by_power(mass, exponent);
@@ -33,14 +34,16 @@ struct BodyPush {
     return Status::ok;
   }
   const BodyProperties& properties() const { return state.properties[slot]; }
-  /// Adds the effect of an impulse per mass, `speed`, that acts at `arm` from the centre of mass, m, world axes.
+  /// Adds the effect of an impulse to `velocity` and `angular_momentum`. `speed`: impulse / mass, m/s. `arm`: from the
+  /// centre of mass to the point at which the impulse acts, m. Both are in world axes.
   /// Errors: out_of_range.
   Status push_at(const Vec3<Real>& speed, const Vec3<Real>& arm, Vec3<Real>& velocity,
                  Vec3<Real>& angular_momentum) const {
     const int exponent = properties().size_exponent;
     if (!within(arm, real_from_unit(properties().bounding_radius, exponent + 1))) return Status::out_of_range;
     if (!within(speed, k_speed_work_max)) return Status::out_of_range;
-    // The arm is in units of twice the body's unit of length, so that an arm of twice the bounding radius fits a Unit.
+    // The arm is halved and stored in the body's unit of length, so that an arm of twice the bounding radius fits a
+    // Unit.
     const Vec3<Unit> arm_halved = unit_from_real(arm, exponent + 1);
     const Vec3<Real> change_of_rotation = cross(arm_halved, speed);
     velocity += speed;
@@ -85,14 +88,15 @@ Status force_at(BodyPush& push, const Vec3<Scaled>& force, const Vec3<Real>& arm
   return status == Status::ok ? push.commit() : status;
 }
 
-/// The impulse of an explosion on a dynamic body, N s; zero if the body is out of range. `offset`: from the centre of
-/// the explosion to the body, m.
+/// The impulse of an explosion on a dynamic body, N s; zero if the explosion does not reach the body. `offset`: from
+/// the centre of the explosion to the body, m.
 Vec3<Scaled> blast(const Explosion& explosion, const BodyProperties& properties, const Vec3<Real>& offset) {
   const Scaled none = 0.0, pi = 3.14159265358979323846;
   const Real zero = 0.0, ball = real_from_unit(properties.bounding_radius, properties.size_exponent);
   Vec3<Unit> direction;
   Real distance = zero;
-  // The components are tested first, because the length of a long vector would exceed the range of Real.
+  // The components are tested before normalise() computes the length, because a long vector's length could exceed the
+  // range of Real.
   if (!within(offset, explosion.radius + ball) || !normalise(offset, direction, distance)) return {none, none, none};
   const Real gap = max(distance - ball, zero);
   if (gap >= explosion.radius) return {none, none, none};

@@ -31,7 +31,8 @@ JointAxis axis_of(const JointState& joint, int i) {
           joint.damping_ratio[i], joint.target[i], joint.speed[i], joint.force_max[i]};
 }
 
-/// Sets `joint` from its definition; `a`, `b`: slots of its bodies. Errors: bad_argument, out_of_range, not_normalised.
+/// Sets `joint` from its definition. `a`, `b`: slots of the bodies that it connects. Errors: bad_argument,
+/// out_of_range, not_normalised.
 Status make_joint(const JointDef& def, uint32_t a, uint32_t b, JointState& joint) {
   if (!is_joint_type(def.type)) return Status::bad_argument;
   joint.type = static_cast<uint32_t>(def.type);
@@ -58,7 +59,7 @@ bool find_joint(const StateView<Byte>& state, JointId id, uint32_t& slot) {
   return slot < state.joints.count && state.joints[slot].type != 0 && state.joints[slot].generation == id.generation;
 }
 
-/// Takes the lowest free slot. False if there is none.
+/// Takes the lowest free joint slot and stores it in `slot`. Returns false if no slot is free.
 bool take_joint_slot(StateView<uint8_t>& state, uint32_t& slot) {
   WorldState& world = state.world;
   slot = world.joints_used;

@@ -53,7 +53,8 @@ Pose pose_near(const BodyProperties& properties, const BodyPose& pose, const Pos
       abs(real_difference(place.y, pose.position.y)) < k_near &&
       abs(real_difference(place.z, pose.position.z)) < k_near)
     return whole;
-  // A height above the plane that is beyond the range of a query may be clamped: the answer of the query is the same.
+  // A height above the plane that is beyond the reach of the query may be clamped, because the query finds nothing at
+  // either height.
   const Vec3<Unit> up = matrix_from(pose.rotation).column[1];
   const Real height = clamp(distance_along(pose.position, place, up), -k_near, k_near);
   return {moved(place, up * -height), pose.rotation};

@@ -10,7 +10,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The shape of a query, in the form of a body's shape.
+/// The shape of a query, in the form in which a body stores its shape.
 struct QueryShape {
   BodyProperties properties;
   Convex convex;
@@ -21,7 +21,7 @@ Status make_query_shape(const World& world, const Shape& shape, QueryShape& made
 /// The shape of a ray: a sphere of radius 0.
 QueryShape query_point();
 
-/// The half extents of the shape's axis-aligned bounds at this rotation, 2^-46 m.
+/// The half extents of the shape's axis-aligned bounds at this rotation, in units of 2^-46 m.
 Vec64 query_half(const QueryShape& shape, const Quat& rotation);
 
 /// The pose of a body for a query at `place`. The position of a distant half-space is moved along its plane to the
@@ -47,9 +47,9 @@ struct QueryBodies {
   /// Bounds of the body's bounding sphere: larger, but cheaper to compute.
   Bounds ball_bounds_of(uint32_t slot) const;
 
-  /// Visits the bodies whose bounds may satisfy `meets`. `meets` may become stricter during the search. The search does
-  /// not change the world. If the tree is up to date, the search finds resting bodies by the tree and tests the bodies
-  /// of the active set one by one. Otherwise it tests all bodies one by one.
+  /// Visits the bodies whose bounds may satisfy `meets`. `meets` may become stricter during the search. `swaps`: as for
+  /// RestingTree::walk(). The search does not change the world. If the tree is up to date, the search finds resting
+  /// bodies by the tree and tests the bodies of the active set one by one. Otherwise it tests all bodies one by one.
   template <class Meets, class Swaps, class Visit>
   void for_each(const Meets& meets, const Swaps& swaps, const Visit& visit) const {
     const auto look_at = [&](uint32_t slot) {

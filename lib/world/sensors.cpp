@@ -19,12 +19,12 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 /// The largest distance at which a body counts as within a sensor is 2^k_within_power times the pair's smaller extent.
-/// This distance exceeds the tolerance of a time of impact, so a body that hits the sensor is within the sensor at that
-/// time. It is below the margin of sensed_bounds().
+/// This distance exceeds the tolerance of a time of impact; therefore a body that hits the sensor is within the sensor
+/// at the time of impact. The distance is less than the margin of sensed_bounds().
 constexpr int k_within_power = -14;
 
-/// Bounds that contain the body from its current time to the end of the tick. Their margin covers the distance of
-/// k_within_power and the rounding of bounds.
+/// Bounds that contain the body from the time `from` of its sweep to the end of the tick. Their margin covers the
+/// distance that k_within_power gives, and the rounding of bounds.
 Bounds sensed_bounds(const SensorStage& stage, uint32_t slot) {
   const BodyProperties& properties = stage.properties[slot];
   if (is_half_space(properties)) return k_everywhere;
@@ -38,7 +38,7 @@ Bounds sensed_bounds(const SensorStage& stage, uint32_t slot) {
   return {moved(moved(from, back), {-room, -room, -room}), moved(moved(from, ahead), {room, room, room})};
 }
 
-/// The pose at the end of the body's sweep, equal to the one that finalise_body() computes.
+/// The pose at the end of the body's sweep: the same pose as finalise_body() will compute.
 BodyPose end_pose(const SensorStage& stage, uint32_t slot) {
   BodyPose pose = stage.poses[slot];
   const Sweep rest = rest_of_tick(stage.sweeps[slot]);
@@ -53,8 +53,8 @@ void bring_near(const BodyProperties& properties, const BodyPose& other, BodyPos
   pose.position = pose_near(properties, pose, other.position).position;
 }
 
-/// Sets `farther` to whether the distance of two bodies exceeds `distance_max`, for all of their parts. Returns false
-/// if a part could not be tested.
+/// Sets `farther` to true if the parts of one body are all farther than `distance_max`, m, from the parts of the other
+/// body, else to false. Returns false if a part could not be tested.
 bool find_farther(const SensorStage& stage, const BodyProperties& a, const Pose& pose_a, const BodyProperties& b,
                   const Pose& pose_b, Real distance_max, bool& farther) {
   const ConvexParts parts_a(a, stage.assets), parts_b(b, stage.assets);
@@ -92,7 +92,7 @@ bool is_within(SensorStage& stage, uint32_t sensor, uint32_t body) {
   return !asked || !farther;
 }
 
-/// Whether sensor and body touch between the start of the body's sweep and `until`.
+/// Whether the sensor and the body touch between the time `from` of the body's sweep and `until`.
 bool meets(SensorStage& stage, uint32_t sensor, uint32_t body, Fraction until) {
   const BodyProperties &a = stage.properties[sensor], &b = stage.properties[body];
   BodyPose pose_a = stage.poses[sensor], pose_b = stage.poses[body];
@@ -126,8 +126,8 @@ bool was_within(const SensorStage& stage, uint64_t key) {
   return at < stage.before.count && key_of(stage.before[at]) == key;
 }
 
-/// The index of a pair in `passed`, or the count if it is not there. The list is short: only impacts divide a sweep
-/// into segments.
+/// The index of a pair in `passed`, or passed.count if it is not there. The search is linear, because the list is
+/// short: only impacts divide a sweep into segments.
 uint32_t find_passed(const SensorStage& stage, uint64_t key) {
   uint32_t place = 0;
   while (place < stage.passed.count && stage.passed.storage[place] != key) ++place;
@@ -139,9 +139,9 @@ void add(SensorStage& stage, SensedKeys& keys, uint64_t key) {
   if (keys.add(key, lost)) stage.overflow.add(CapacityEventType::sensed, pair_low(lost), pair_high(lost) >> 1);
 }
 
-/// Adds the pair to `found` if the body is within the sensor at the end of the tick. Also adds the pair, as passed
-/// through, if the body was not within the sensor in the last step and touches it only on the last segment of its
-/// sweep.
+/// Adds the pair to `found` if the body is within the sensor at the end of the tick. Otherwise adds the pair, as passed
+/// through, if the body touches the sensor on the last segment of its sweep, but did not on an earlier segment, and was
+/// not within the sensor at the end of the last step.
 void evaluate_pair(SensorStage& stage, uint32_t sensor, uint32_t body) {
   if (!may_sense(stage, sensor, body)) return;
   const uint64_t within = sensed_key(sensor, body, false), through = sensed_key(sensor, body, true);
@@ -157,8 +157,8 @@ void evaluate_pair(SensorStage& stage, uint32_t sensor, uint32_t body) {
   if (meets(stage, sensor, body, k_whole_step)) add(stage, stage.found, through);
 }
 
-/// Evaluates each pair with a changed body once. If both have changed, the pair is evaluated when the sensor is
-/// visited.
+/// Evaluates each pair of a sensor and a body once, if at least one of the two has changed. If both have changed, the
+/// pair is evaluated when the loop visits the sensor.
 void settle_changed(SensorStage& stage) {
   const StepCacheView& cache = stage.cache;
   for (uint32_t i = 0; i < stage.changed.words.count; ++i) stage.changed.words[i] |= cache.active.words[i];
@@ -184,7 +184,8 @@ void settle_changed(SensorStage& stage) {
   });
 }
 
-/// Writes the events of a step. Input: the pairs of the last step and the pairs found in this step, both sorted.
+/// Writes the sensor events of a step. Input of raise_all(): the pairs of the last step and the pairs found in this
+/// step, both sorted by key.
 struct SensorEvents {
   Span<const BodyProperties> properties;
   Span<SensorEvent> events;
@@ -216,7 +217,7 @@ struct SensorEvents {
 }  // namespace
 
 void note_changed(const StepCacheView& cache, uint32_t slots_used, BitSet changed) {
-  const bool known = cache.cache.fresh != 0;  // otherwise the active set belongs to another state
+  const bool known = cache.cache.fresh != 0;  // if false, the active set belongs to another state
   for (uint32_t i = 0; i < changed.words.count; ++i) changed.words[i] = known ? cache.active.words[i] : 0;
   for (uint32_t slot = 0; !known && slot < slots_used; ++slot) changed.set(slot);
 }
@@ -256,7 +257,7 @@ void sense(SensorStage& stage, const StateView<uint8_t>& state, SensorEventBuffe
   report.events.sensor_dropped = room.count == 0 ? 0 : events.dropped;
   report.lost.sensed = stage.passed.dropped + stage.found.dropped;
   report.lost.sensed_undecided = stage.undecided;
-  // Dropped pairs may still be within, so the next step must test all pairs.
+  // The body of a dropped pair may still be within its sensor, so the next step must test all pairs.
   if (stage.found.dropped != 0) stage.cache.cache.fresh = 0;
 
   uint32_t count = 0;

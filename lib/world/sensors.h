@@ -7,9 +7,9 @@
 #include "state/step_cache.h"
 
 /// The sensor stage. It finds the bodies that are within a sensor at the end of a step, and the bodies that only passed
-/// through it. It tests only pairs with a body that moved or that a call changed; the other pairs keep their result.
-/// Whether a body is within a sensor depends on the poses alone. Therefore a machine that has just restored a state,
-/// and so tests all pairs, finds the same result.
+/// through it. It tests only the pairs of which a body moved or was changed by a call; all other pairs keep their
+/// result. Whether a body is within a sensor depends on the poses alone. Therefore a machine that has just restored a
+/// state, and so tests all pairs, finds the same result.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -19,7 +19,8 @@ struct KeyOrder {
 /// Pairs of a sensor and a body, by sensed_key(). If the storage has no room for all pairs, it keeps the smallest keys.
 using SensedKeys = SmallestOf<uint64_t, KeyOrder>;
 
-/// `through`: the body was inside the sensor during this step but is not at its end.
+/// The key of a pair of a sensor and a body. `through`: the body was within the sensor during this step, but is not
+/// within it at the end of the step.
 constexpr uint64_t sensed_key(uint32_t sensor, uint32_t body, bool through) {
   return pair_key(sensor, body << 1 | (through ? 1 : 0));
 }
@@ -35,7 +36,7 @@ struct SensorStage {
   StepCacheView cache;
   BitSet changed;                  ///< bodies that moved in the last step or were changed since
   Span<const SensedState> before;  ///< pairs whose body was within the sensor at the end of the last step
-  SensedKeys passed, found;  ///< `passed`: pairs found before the last segment of a sweep. `found`: all pairs found
+  SensedKeys passed, found;  ///< `passed`: pairs found on a segment before the last of a sweep. `found`: all pairs
   Overflow& overflow;
   uint32_t undecided = 0;
 };

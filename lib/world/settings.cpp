@@ -78,7 +78,7 @@ Status set_settings(World& world, const WorldDef& def) {
   if (const Status status = check_settings(def, *world.features); status != Status::ok) return status;
   StateView<uint8_t> state = view_of(world);
   store_settings(def, state.world, state.header.manifolds != 0);
-  // The stored manifolds were computed with the old settings.
+  // Clears the stored manifolds, because they were computed with the old settings.
   for (ManifoldState& manifold : state.manifolds.first(state.manifolds.count == 0 ? 0 : state.world.contact_count))
     manifold = ManifoldState{};
   wake_world(state);

@@ -16,7 +16,7 @@ class StageEnds {
     ++profile_->steps;
     last_ = profile_->now(profile_->user);
   }
-  /// `contacts`: number of contacts of this step so far.
+  /// `contacts`: number of contacts found so far in this step.
   void end(StepStage stage, uint32_t contacts) {
     if (profile_ != nullptr) {
       const uint64_t now = profile_->now(profile_->user);

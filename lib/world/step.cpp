@@ -27,7 +27,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Lists the slots of the active set, ascending. After some bodies were woken, these are the moving bodies.
+/// Lists the slots of the active set, ascending. After partition_bodies(), the set contains exactly the moving bodies,
+/// also those that were woken since.
 Span<const uint32_t> list_moving(BitSet active, Span<uint32_t> slots) {
   uint32_t count = 0;
   active.for_each([&](uint32_t slot) { slots[count++] = slot; });
@@ -85,10 +86,11 @@ class Step {
   void finalise();
   void store();
 
-  /// The number of elements that a stage passes to with_team() if it calls filter rules: 0 if the caller has any, so
-  /// that one thread calls them.
+  /// The number of elements that a stage passes to with_team() for work that calls filter rules: 0 if the caller has
+  /// filter rules, so that only one thread calls them, else `elements`.
   uint32_t unless_ruled(uint32_t elements) const { return world_.hooks.filter_rules.count == 0 ? elements : 0; }
-  /// Calls work(team) with the threads that the caller lends. `team` is null if there are none, or few elements.
+  /// Calls work(team) with the threads that the caller lends. `team` is null if the caller lends none, or if there are
+  /// too few elements to share.
   template <class Work>
   void with_team(uint32_t elements, const Work& work) {
     detent::with_team(world_.hooks.tasks, elements, work);
@@ -104,8 +106,8 @@ class Step {
   ContactRoom room() const {
     return {scratch_, state_.contacts.count - (contacts_before_ - awake_contacts_.count), manifolds().count != 0};
   }
-  /// Whether islands may be solved together. They may not if each island can end its iterations early, or if positions
-  /// are corrected island by island after the substeps.
+  /// Whether several islands may be solved together, to fill the lanes. They may not in two cases: if each island can
+  /// end its iterations early, and if positions are corrected island by island after the substeps.
   bool groups_islands() const {
     return uses_lanes(settings_) && settings_.iterations == 1 && !settings_.post_stabilises;
   }
@@ -227,8 +229,8 @@ void Step::start_joints() {
   report_.joints.count = joints_.count;
 }
 
-/// Wakes the bodies that moving bodies touch. This is repeated, because a woken body with joints has a longer
-/// speculative distance and may touch further bodies.
+/// Wakes the bodies that moving bodies touch. Repeats this, because a woken body with joints has a longer speculative
+/// distance, and so may touch further bodies.
 void Step::wake_touched_bodies() {
   while (const uint32_t woke = wake_touched(settings_, bodies_, cache_, pool_)) {
     report_.woke += woke;
@@ -283,7 +285,8 @@ void Step::build_islands() {
                   scratch_.island_bodies, scratch_.contact_sort, contact_order());
 }
 
-/// Returns the islands that are solved together with the island `first`, as one island. `count`: their number.
+/// Returns the island `first` and the islands that are solved together with it, combined into one island. Sets `count`
+/// to the number of these islands.
 Island Step::island_group(uint32_t first, uint32_t& count) const {
   Island group = islands_[first];
   for (count = 1; groups_islands() && first + count < islands_.count; ++count) {
@@ -295,9 +298,9 @@ Island Step::island_group(uint32_t first, uint32_t& count) const {
   return group;
 }
 
-/// Whether one thread solves this island while other threads solve other islands. This is not so for an island with
-/// kinematic bodies, or with joints to bodies that do not move, because its solution writes to bodies outside the
-/// island. Nor is it so for an island with at least `large` contacts or bodies: there the threads share the loops.
+/// Whether one thread solves this island while other threads solve other islands. False in two cases. First, the island
+/// has contacts with kinematic bodies, or joints to bodies that do not move: its solution writes to bodies outside the
+/// island. Second, the island has at least `large` contacts or bodies: the threads then share its loops.
 bool Step::is_solved_by_one_thread(const Island& island, uint32_t large) const {
   if (island.contact_count >= large || island.body_count >= large) return false;
   for (const uint32_t index : Span<const uint32_t>{joints_.order.data + island.first_joint, island.joint_count}) {
@@ -339,8 +342,8 @@ void Step::solve_island(const Island& island, StepSettings& settings) {
 
 void Step::solve_islands(Team* team) {
   StepSettings settings = shared_settings(settings_, team);
-  // Two lists of islands that are solved later. They lie in BodyWork::run, which is not needed any more: the islands
-  // for one thread from the front on, the others from the back.
+  // Two lists of islands that are solved below, stored in BodyWork::run, which is no longer needed. The list from the
+  // front on has the islands that one thread solves; the list from the back has the islands that all threads share.
   const auto front = [&](uint32_t k) -> uint32_t& { return bodies_.work[k].run; };
   const auto back = [&](uint32_t k) -> uint32_t& { return bodies_.work[islands_.count - 1 - k].run; };
   uint32_t for_one_thread = 0, for_all = 0, grouped = 0;

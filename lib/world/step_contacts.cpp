@@ -12,9 +12,9 @@ namespace {
 
 /// Lengths of a pair, m.
 struct PairLengths {
-  Real at_rest;           ///< contact margin of a pair that does not move
-  Real margin;            ///< speculative_distance()
-  Real reach;             ///< as `margin`, but from the relative speed: bodies that move together count as slow
+  Real at_rest;  ///< contact margin of a pair that does not move
+  Real margin;   ///< speculative_distance()
+  Real reach;    ///< speculative distance from the relative speed, so that bodies that move together count as slow
   Real recycle_distance;  ///< largest relative motion for which the pair's contact points are recycled
 
   /// Whether a point that was beyond `margin` when the contact points were computed is still too far away to touch in
@@ -22,11 +22,11 @@ struct PairLengths {
   bool is_slow() const { return reach + recycle_distance <= scale_by_power(at_rest, 1); }
 };
 
-/// An upper bound, to first order, of the speed at which the surface of body `slot` moves in the axes of body `frame`,
-/// m/s; so also of the speed at which the two approach. 0 if they move together. Returns false if a value is out of
-/// range.
+/// Sets `speed` to an upper bound, to first order, of the speed, m/s, of all surface points of body `slot` in the
+/// moving axes of body `frame`. This is also an upper bound of the speed at which the two bodies approach. It is 0 if
+/// they move together as one rigid body. Returns false if a value is out of range.
 bool speed_in_frame(const StepBodies& bodies, uint32_t slot, uint32_t frame, Real& speed) {
-  constexpr int k_power_max = 6;  // 2^6 m, rad/s: the sums of products are in the range of a Real
+  constexpr int k_power_max = 6;  // limit of each length and rate, 2^6 m or rad/s: sums of products then fit a Real
   const auto angular_velocity = [&](uint32_t of, Vec3<Real>& found) {
     const int power = k_angular_velocity_power - bodies.properties[of].size_exponent;
     const Vec3<Real>& scaled = bodies.work[of].angular_velocity;
@@ -52,7 +52,8 @@ PairLengths lengths_of(const StepSettings& settings, const StepBodies& bodies, u
   const bool jointed = a.joint_body != k_no_link || b.joint_body != k_no_link;
   const Real margin = speculative_distance(settings, extent, a.speed + b.speed, jointed);
   PairLengths lengths = {extent * settings.contact_margin, margin, margin, extent * settings.contact_recycle_distance};
-  // Impacts do not stop jointed bodies. So their contacts must cover every motion that the solver can cause.
+  // Impacts do not stop jointed bodies. So the contacts of jointed bodies must cover every motion that the solver can
+  // cause.
   if (jointed || lengths.is_slow() || a.speed == k_zero || b.speed == k_zero) return lengths;
   const bool a_is_smaller = a.extent < b.extent;
   Real speed;
@@ -65,7 +66,7 @@ ContactMargins margins_of(const StepSettings& settings, const PairLengths& lengt
   return {lengths.margin, settings.sunk};
 }
 
-/// A contact of the last tick; `manifold` is null if the world keeps none.
+/// A contact of the last tick, or null. `manifold` is null if the world stores no manifolds.
 struct ContactBefore {
   const ContactState* contact = nullptr;
   const ManifoldState* manifold = nullptr;
@@ -156,11 +157,11 @@ struct Collider {
 
   bool recycles() const { return last.manifolds.count != 0; }
 
-  /// Whether the pair has contacts in this step, if it touches.
+  /// Whether the step looks for contacts of this pair: neither body sleeps, and at least one body is awake (dynamic).
   bool takes(uint64_t key) const {
     const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
-    // If a body still sleeps, wake_touched() found that it is not touched. Recycled contact points could contradict
-    // this, so they are not used.
+    // If a body of the pair still sleeps, wake_touched() has found that the bodies do not touch. Recycled contact
+    // points could contradict this result, so the pair is skipped.
     return !bodies.asleep(slot_a) && !bodies.asleep(slot_b) && (bodies.awake(slot_a) || bodies.awake(slot_b));
   }
   void visit(uint64_t key) {
@@ -169,7 +170,7 @@ struct Collider {
     start(pair_high(key));
     collide_started(key);
   }
-  /// Collides a pair whose bodies have been started.
+  /// Finds the contacts of a pair. Range: start() has been called for both bodies.
   void collide_started(uint64_t key) {
     const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
     if (bodies.has_parts(slot_a, slot_b)) {
@@ -190,7 +191,7 @@ struct Collider {
       mark_near(slot_a, slot_b);
   }
 
-  /// Records, for continuous collision, that these bodies may be near each other although they have no contact.
+  /// Records for continuous collision that two bodies without a contact may be near each other.
   void mark_near(uint32_t slot_a, uint32_t slot_b) const {
     alone(settings.team, [&] {
       bodies.work[slot_a].colours |= k_has_near;
@@ -198,7 +199,7 @@ struct Collider {
     });
   }
 
-  /// Restores the order in which the contacts were found, after some were dropped.
+  /// Restores the order in which the contacts were found. It is lost when new contacts take the places of dropped ones.
   __attribute__((noinline)) void put_in_order() {
     const Span<ContactOrder> place = room.by_depth();
     heap_sort(place, [](const ContactOrder& a, const ContactOrder& b) { return a.key < b.key; });
@@ -219,9 +220,10 @@ struct Collider {
     }
   }
 
-  /// Leaves the rebounds of pairs of dynamic bodies to continuous collision (impacts). The solver keeps the rebounds of
-  /// pairs with parts. It also keeps those of pairs in which a body had a normal impulse from a dynamic body in the
-  /// last tick, the other body of the pair included: within a pile there would be too many impacts.
+  /// Leaves the rebounds of pairs of dynamic bodies to continuous collision, which resolves them as impacts. The solver
+  /// resolves the rebounds of two kinds of pairs itself: pairs with parts, and pairs of which a body leans on a dynamic
+  /// body. Two dynamic bodies lean on each other if their contact had a normal impulse in the last tick. Without these
+  /// exceptions, a pile would cause too many impacts.
   __attribute__((noinline)) void leave_rebounds_to_impacts() const {
     const Span<ContactWork> contacts = room.contacts().first(count.contacts);
     const auto for_each_leaning = [&](const auto& visit) {
@@ -240,15 +242,15 @@ struct Collider {
     for_each_leaning([&](uint32_t slot) { room.leaning().clear(slot); });
   }
 
-  /// Starts the tick of a resting body before its pairs are collided. The pairs of a ground body follow each other, so
-  /// it is enough to remember the body that was started last.
+  /// Starts the tick of a resting body before its pairs are collided. Successive pairs often have the same resting body
+  /// (the ground). The function remembers the body that it started last, and does not start it again.
   void start(uint32_t slot) {
     if (bodies.active.has(slot) || slot == last_started) return;
     bodies.start(settings, slot);
     last_started = slot;
   }
 
-  /// Begins the search in the last tick's contacts at those of this pair.
+  /// Sets `next`, the position in the list of the last tick's contacts, to the contacts of this pair.
   void seek(uint64_t key) {
     next = partition_point(last.awake.count, [&](uint32_t i) { return key_of(last.contacts[last.awake[i]]) < key; });
   }
@@ -338,8 +340,9 @@ struct Collider {
     }
   }
 
-  /// Counts a dropped contact, when a contact of this depth has no room. Returns true if the shallowest stored contact
-  /// is shallower than `depth`. That contact is the first in the order by depth, and the caller must replace it.
+  /// Called when there is no room for a contact of this depth. Drops either this contact or the shallowest stored
+  /// contact, whichever is shallower, and counts it. Returns true if the stored contact is dropped: the caller must
+  /// then replace it. It is the first entry of room.by_depth().
   __attribute__((noinline)) bool leave_out_shallowest(Real depth, uint64_t key) {
     if (count.dropped++ == 0) {
       for (uint32_t i = 0; i < room.by_depth().count; ++i) {
@@ -370,7 +373,7 @@ struct Collider {
     if (recycles()) room.manifolds()[place] = manifold;
     ContactWork& work = room.contacts()[place];
     work.state = continued_contact(slot_a, slot_b, part, geometry, before);
-    // The velocities of bodies that only now collide do not last.
+    // If the bodies only now collide, their velocities change at once, so the arms are not advanced along them.
     const Real ahead = is_pushed(work) ? scale_by_power(settings.tick_time, -1) : k_zero;
     make_rows(settings, bodies.at(slot_a), bodies.at(slot_b), geometry, ahead, work);
     if (work.static_pair == 0 && is_positive(work.restitution)) rebounds = 1;
@@ -385,15 +388,15 @@ struct Collider {
 
 #if DETENT_TASKS
 
-/// The part of the contacts that a thread finds: those of consecutive pairs.
+/// A range of consecutive pairs whose contacts one thread finds, and the room for these contacts.
 struct ContactPart {
   uint32_t first_pair, pair_count;
   uint32_t first;  ///< index of the first contact of the part's room
-  uint32_t count;  ///< at first how many contacts the room holds; later the number of contacts found
+  uint32_t count;  ///< before the search: number of contacts that the room holds; after it: number found
 };
 
-/// Starts the bodies of the pairs of the next part, and sets the part's room: as many contacts as its pairs can have.
-/// Returns false if the remaining room does not suffice, or if there are no more pairs.
+/// Chooses the pairs of the next part and starts their bodies. Sets the part's room to as many contacts as its pairs
+/// can have. Returns false if the remaining room does not suffice, or if there are no more pairs.
 bool start_part(Collider& collider, Span<const uint64_t> pairs, ContactPart& part) {
   uint32_t contacts = 0;
   part.pair_count = 0;

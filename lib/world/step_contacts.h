@@ -13,7 +13,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The data of the bodies of a step that the stages before the solver use.
+/// The data of all bodies, as the stages of a step before the solver use it.
 struct StepBodies {
   Span<const BodyPose> poses;
   Span<const BodyProperties> properties;
@@ -41,8 +41,8 @@ struct StepBodies {
   }
 };
 
-/// Wakes each sleeping body that a moving body touches, then those that the woken bodies touch, and so on. Removes the
-/// woken bodies from the tree and finds their pairs. Returns the number of bodies that woke.
+/// Wakes each sleeping body that a moving body touches, then each sleeping body that a woken body touches, and so on.
+/// Removes the woken bodies from the tree, and adds their pairs to `pool`. Returns the number of bodies that woke.
 uint32_t wake_touched(const StepSettings& settings, const StepBodies& bodies, const StepCacheView& cache,
                       PairPool& pool);
 
@@ -62,7 +62,7 @@ struct LastContacts {
   Span<const uint32_t> awake;           ///< indices of the contacts with an awake body, which may continue
 };
 
-/// The arrays for the contacts of a tick, or a part of them.
+/// The arrays for the contacts of a tick, or a range of these arrays.
 struct ContactRoom {
   const Scratch& scratch;
   uint32_t count;  ///< number of elements that may be used

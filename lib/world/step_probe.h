@@ -6,13 +6,13 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// What a step records besides its report, and inputs of a step for rollback.
+/// Data that a step records in addition to its report, and inputs of a step in a rollback.
 struct StepProbe : ImpactProbe {
 #if DETENT_SPARSE
   Span<const JointState> joints = {};               ///< input: JointStage::others
   BitSet anchoring = {};                            ///< input: JointStage::anchoring
-  Span<const JointBody> joint_bodies = {};          ///< the bodies of the joints, in the block
-  uint32_t joint_couplings = 0, joint_numbers = 0;  ///< entries used of the pools of these names
+  Span<const JointBody> joint_bodies = {};          ///< output: JointStage::bodies of the step; they lie in the block
+  uint32_t joint_couplings = 0, joint_numbers = 0;  ///< output: entries used of the pools with these names
 #endif
 };
 

@@ -9,12 +9,14 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 constexpr uint32_t k_capacity_max = 1u << 20;
-constexpr uint32_t k_pairs_per_contact = 2;  ///< more pairs than contacts: bounds may overlap without a contact
+/// Capacity of pairs with overlapping bounds, divided by the capacity of contacts. It is above 1, because bounds may
+/// overlap without a contact.
+constexpr uint32_t k_pairs_per_contact = 2;
 
 /// Byte offsets of the arrays in a block.
 struct Layout {
   uint32_t header, world, poses, motions, properties, activities, slots, contacts, assets, manifolds, joints, sensed;
-  uint32_t persistent_bytes;  ///< end of the snapshot
+  uint32_t persistent_bytes;  ///< size of a snapshot: it consists of the arrays above
   uint32_t cache, tree_nodes, tree_parents, active, candidates, moving_bodies, awake_contacts;
   uint32_t bounds, bounds_keys, bounds_sort, pairs, pair_sort, contact_work, islands, island_bodies, sweeps;
   uint32_t body_work, contact_order, contact_sort, lane_contacts, impact_pairs, impact_hits, impact_paths;
@@ -24,7 +26,7 @@ struct Layout {
   uint32_t bytes;
 };
 
-/// Number of contacts whose manifolds can be stored.
+/// Capacity of stored manifolds: one for each contact, or 0 if Capacity::manifolds is false.
 constexpr uint32_t manifold_count(Capacity capacity) { return capacity.manifolds ? capacity.contacts : 0; }
 
 /// Largest number of bodies with joints in a step.
@@ -40,23 +42,25 @@ constexpr uint32_t joint_coupling_count(Capacity capacity) {
   const uint32_t joints = capacity.joints;
   return joints > 2 * k_each ? joints * k_each : joints * (joints > 0 ? joints - 1 : 0) / 2;
 }
-/// Capacity of numbers in the blocks of the couplings: 256 for each joint, or 36 for each coupling if that is less. A
-/// chain of hinges needs 25 to 36 for each joint, a net of 10 x 10 ball joints 81.
+/// Capacity of numbers (matrix elements) in the blocks of all couplings: 256 for each joint, or 36 for each coupling if
+/// that is less. A chain of hinges needs 25 to 36 numbers for each joint, a net of 10 x 10 ball joints 81.
 constexpr uint32_t joint_number_count(Capacity capacity) {
   constexpr uint32_t k_each = 256, k_block = 36;
   const uint32_t all = joint_coupling_count(capacity) * k_block, most = capacity.joints * k_each;
   return all < most ? all : most;
 }
 
-/// Memory for joint_number_count() numbers. With lanes, the rows of a block are rounded up to 4 or 8 numbers. The 256
-/// numbers of a joint, in at most 16 couplings, then take the room of at most 544. The factor 9/4 gives 576.
+/// The number of Reals that joint_number_count() numbers take in memory. With lanes, each row of a block is padded to 4
+/// or 8 numbers: 256 numbers for a joint, in the blocks of at most 16 couplings, then take at most 544 Reals. The
+/// factor 9/4 provides 576.
 template <bool has_lanes>
 constexpr uint32_t joint_number_room(Capacity capacity) {
   const uint32_t count = joint_number_count(capacity);
   return has_lanes && k_may_have_joint_lanes ? count / 4 * 9 : count;
 }
 
-/// The largest number of groups of four that `contacts` contacts can form. A group is solved at once.
+/// The largest number of groups of four contacts that `contacts` contacts can form; 0 without lanes. The contacts of a
+/// group are solved at once.
 constexpr uint32_t lane_contact_count(uint32_t contacts) { return k_may_have_lanes ? contacts / 4 : 0; }
 
 constexpr uint32_t slot_words(uint32_t bodies) { return (bodies + 63) / 64 * 2; }
@@ -111,8 +115,9 @@ DETENT_SHARED constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.islands = place(sizeof(Island), capacity.bodies);
   layout.island_bodies = place(sizeof(uint32_t), capacity.bodies);
   layout.sweeps = place(sizeof(BodySweep), capacity.bodies);
-  // Once the sweeps are known, the work space of the substeps is no longer used, and the impacts use its memory. What
-  // they leave, up to manifold_work, is their spare memory (step_scratch.h).
+  // Once the sweeps are known, the work space of the substeps is no longer used, and the arrays of the impacts use its
+  // memory. The rest of this memory, from the end of these arrays to manifold_work, is their spare memory
+  // (step_scratch.h).
   const uint64_t moved = end;
   layout.body_work = place(sizeof(BodyWork), capacity.bodies);
   layout.contact_order = place(sizeof(ContactOrder), capacity.contacts);

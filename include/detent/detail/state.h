@@ -1,9 +1,9 @@
 #pragma once
 #include <detent/body.h>
 
-/// The persistent state: the content of a snapshot, which the digest covers. The fields of every struct fill it without
-/// padding (asserted by lib/state/fields.h). No struct has a pointer or a size_t. The layout is the same on every
-/// target.
+/// The structs of the persistent state, which is the content of a snapshot. The digest covers this state without its
+/// header. No struct has padding (asserted by lib/state/fields.h), a pointer or a size_t. The layout is the same on
+/// every target.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -26,12 +26,12 @@ struct alignas(8) BlockHeader {
 struct alignas(8) WorldState {
   uint64_t tick;           ///< ticks completed
   uint32_t body_count;     ///< bodies alive
-  uint32_t slots_used;     ///< body slots ever used: the slots beyond are all zero
+  uint32_t slots_used;     ///< number of body slots that have ever been used; all later slots are zero
   uint32_t free_word;      ///< the words of the array `slots` before this index have no free slot
-  uint32_t slots_retired;  ///< body slots whose generation is used up
+  uint32_t slots_retired;  ///< number of body slots that are no longer used, because their generations are used up
   uint32_t contact_count;  ///< contacts, sorted by (body_a, body_b, part)
   uint32_t joint_count;    ///< joints alive
-  uint32_t joints_used;    ///< joint slots ever used: the slots beyond are all zero
+  uint32_t joints_used;    ///< number of joint slots that have ever been used; all later slots are zero
   uint32_t sensor_count;   ///< bodies that are sensors
   uint32_t sensed_count;   ///< pairs of a sensor and a body within it, sorted by (sensor, body)
   uint32_t substeps;       ///< 0: chosen for each island
@@ -49,9 +49,9 @@ struct alignas(8) WorldState {
   Real contact_frequency;
   Real damping_ratio;
   Real restitution_threshold;
-  Real contact_margin;            ///< contact margin, over the smaller extent
-  Real contact_recycle_distance;  ///< largest motion at which contact points are recycled, over the smaller extent
-  Real resting_penetration;       ///< depth of contacts at rest for which substeps are chosen, over the smaller extent
+  Real contact_margin;            ///< WorldDef::contact_margin
+  Real contact_recycle_distance;  ///< WorldDef::contact_recycle_distance; 0 without manifolds
+  Real resting_penetration;       ///< WorldDef::resting_penetration
 #if defined(DETENT_F32)
   uint32_t zero;
 #endif
@@ -94,8 +94,9 @@ struct BodyProperties {
   /// In the body's unit. Box, cylinder, cone, hull: radius of the ball that rounds it. Compound: least half thickness
   /// of a child. Other shapes: 0.
   Unit rounding;
-  Scaled mass;                ///< kg; of a non-dynamic body: the mass that it gets when it becomes dynamic, or 0
-  Scaled inverse_inertia[3];  ///< m (2^size_exponent)^2 / I about each body axis; 0 if locked or not dynamic
+  Scaled mass;  ///< kg; of a non-dynamic body: the mass that it gets when it becomes dynamic, or 0
+  /// mass x (2^size_exponent)^2 / inertia about each body axis; 0 about a locked axis, and if the body is not dynamic.
+  Scaled inverse_inertia[3];
   Scaled friction;
   Scaled restitution;
   Scaled rolling_resistance;
@@ -111,11 +112,14 @@ struct BodyProperties {
 
 /// Substeps and sleep of a body. All zero for a body that is not dynamic.
 struct BodyActivity {
-  uint32_t substeps;       ///< of the body's island in the last tick; 0 before the first tick, and without contacts
-  uint32_t calm_ticks;     ///< ticks in a row in which fewer substeps would have been enough
-  uint16_t still_ticks;    ///< ticks in a row at rest
-  uint16_t pending_event;  ///< BodyEventType that the end of the step reports, or 0; between steps: woke or 0
-  uint32_t asleep;         ///< slot + 1 of the first body of those that fell asleep together; 0: awake
+  /// Number of substeps of the body's island in the last tick. 0 before the first tick, and if the island had neither
+  /// contacts nor joints.
+  uint32_t substeps;
+  uint32_t calm_ticks;   ///< ticks in a row in which fewer substeps would have been enough
+  uint16_t still_ticks;  ///< ticks in a row at rest
+  uint16_t
+      pending_event;  ///< the BodyEventType that the step will report at its end; 0: none. Between steps: woke or 0
+  uint32_t asleep;    ///< slot + 1 of the first body of those that fell asleep together; 0: awake
 };
 
 constexpr uint32_t k_manifold_points_max = 4;
@@ -143,18 +147,19 @@ struct ContactState {
 /// larger bounding radius, or A if the radii are equal. Where no unit is given, lengths are relative to 4 times the
 /// base's unit of length.
 struct ManifoldState {
-  Vec3<Unit> normal;                   ///< from the base to the other body, in the base's axes
-  Vec3<Unit> offset;                   ///< from the base's centre to the other body's, in the base's axes
-  Quat rotation;                       ///< of the other body, in the base's axes
-  Unit height[k_manifold_points_max];  ///< separation of a point minus its coordinate along the normal
-  /// The points, from the centre of the other body, in that body's axes; in 2^-15 of that body's unit of length.
+  Vec3<Unit> normal;  ///< from the base to the other body, in the base's axes
+  Vec3<Unit> offset;  ///< from the base's centre to the other body's, in the base's axes
+  Quat rotation;      ///< of the other body, in the base's axes
+  /// The separation of each point minus its coordinate along the normal, measured from the base's centre.
+  Unit height[k_manifold_points_max];
+  /// The points, from the centre of the other body, in that body's axes, in 2^-15 of that body's unit of length.
   int16_t anchor[k_manifold_points_max][3];
 };
 
-/// A body within a sensor.
+/// A body that was within a sensor at the end of the last step.
 struct alignas(8) SensedState {
-  uint32_t sensor;  ///< slot index
-  uint32_t body;    ///< slot index
+  uint32_t sensor;  ///< slot index of the sensor
+  uint32_t body;    ///< slot index of the body
 };
 
 inline constexpr uint32_t k_joint_rows_max = 6;
@@ -185,18 +190,18 @@ struct alignas(8) JointState {
   Scaled break_torque;
   Vec3<Scaled> force;   ///< on B in the last tick, N, world
   Vec3<Scaled> torque;  ///< on B in the last tick, N m, world
-  /// Impulses of the joint's rows in the last substep, without those that follow curved paths, times (number of
-  /// substeps) / 2^k_kept_power (lib/joint/joint.h), m/s. The next tick begins with them.
+  /// Impulses of the joint's rows in the last substep, times (number of substeps) / 2^k_kept_power (lib/joint/joint.h),
+  /// m/s. They do not include the impulses by which the joint follows its curved path. The next tick begins with them.
   Real impulse[k_joint_rows_max];
 };
 
-/// The kind of a bound asset. Stored: a value is never reused.
+/// The kind of a bound asset. Stored in snapshots: a value is never reused.
 enum class AssetKind : uint32_t {
   none = 0,      ///< not bound
   other = 1,     ///< bytes that the library does not read
-  hull = 2,      ///< a cooked hull, checked in full
-  terrain = 3,   ///< a cooked mesh or height field (terrain), checked in full
-  compound = 4,  ///< a cooked compound, checked in full
+  hull = 2,      ///< a cooked hull, of which bind_asset() has checked every byte
+  terrain = 3,   ///< a cooked mesh or height field, of which bind_asset() has checked every byte
+  compound = 4,  ///< a cooked compound, of which bind_asset() has checked every byte
 };
 
 struct AssetState {

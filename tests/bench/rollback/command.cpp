@@ -26,7 +26,8 @@ frame the input of one player is eight ticks late. "apart": heaps of 50 bodies; 
   again     us, of going back eight ticks and making them again, sparse and of all bodies; ratio: of both
   forward   us, of a new tick
   kB        of the session's memory for each tick of its window
-Medians. Every state made again is compared: exit code 1 if one differs, or if anything was allocated.)";
+Medians. The states at the end are compared (--sparse: every state that is made again): exit code 1 if one differs,
+or if anything was allocated.)";
 
 /// us, without digits that mean nothing.
 double rounded(double us) { return static_cast<double>(static_cast<int64_t>(us * 1000 + 0.5)) / 1000; }

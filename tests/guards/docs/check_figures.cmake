@@ -1,6 +1,7 @@
 # cmake -DROOT=<repository> -DFIGURES=<list> -P check_figures.cmake
-# Fails if a document does not say a figure as the list has it: with the value that a constant has in its file, or with the
-# number of rows of a table under its heading. In the list | stands between the columns, and / for | in a text.
+# Fails if a document does not say a figure as the list has it: with the value that a constant has in its file, with the
+# number of rows of a table under its heading, or with the last cell of the row of a CSV file that begins with the given
+# cells (with commas between thousands). In the list | stands between the columns, and / for | in a text.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -14,6 +15,14 @@ foreach(row IN LISTS rows)
     file(STRINGS ${ROOT}/${source} lines)
     list(LENGTH lines value)
     math(EXPR value "${value} - 1")
+  elseif(source MATCHES "[.]csv$")
+    file(READ ${ROOT}/${source} lines)
+    if(NOT lines MATCHES "\n${constant},([0-9]+)\n")
+      string(APPEND faults "\n  ${source} has no ${constant}")
+      continue()
+    endif()
+    string(REGEX REPLACE "([0-9])([0-9][0-9][0-9])$" "\\1,\\2" value ${CMAKE_MATCH_1})
+    string(REGEX REPLACE "([0-9])([0-9][0-9][0-9])," "\\1,\\2," value ${value})
   else()
     file(READ ${ROOT}/${source} lines)
     if(NOT lines MATCHES "[ ]${constant} = ([0-9]+);")
