@@ -302,8 +302,8 @@ void renew_response(const WorldInverseInertia& a, const WorldInverseInertia& b, 
     work.response[i] = fine(unit_from_real(response.part[i], work.response_exponent));
   couple(response, work);
   work.friction_mass = fine(mass_of(greatest_response(response, k_along_first)));
-  work.twist_mass = fine(angular_mass_of(own(k_about_normal)));
-  work.rolling_mass = fine(angular_mass_of(greatest_response(response, k_about_first)));
+  if (work.angular_rows != 0) work.twist_mass = fine(angular_mass_of(own(k_about_normal)));
+  if (work.angular_rows == 3) work.rolling_mass = fine(angular_mass_of(greatest_response(response, k_about_first)));
 }
 
 void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b, const ContactGeometry& geometry,
@@ -322,6 +322,15 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
   work.middle_b = fine_arm(middle_b);
   work.moment_a = fine_arm(cross(work.middle_a, work.normal));
   work.moment_b = fine_arm(cross(work.middle_b, work.normal));
+
+  work.friction = fine(geometric_mean(a.properties.friction, b.properties.friction));
+  work.restitution = pair_restitution(a.properties, b.properties);
+  const Scaled &rolls_a = a.properties.rolling_resistance, &rolls_b = b.properties.rolling_resistance;
+  const Scaled rolling = less(rolls_a, rolls_b) ? rolls_b : rolls_a;
+  const Real extent = min(a.extent, b.extent);
+  work.rolling_arm = fine(multiply(rolling, scaled_by_power(scaled_from(extent), -1 - unit)));
+  work.twist_arm = fine(add(multiply(work.friction, scaled_from(patch)), work.rolling_arm));
+  work.angular_rows = is_positive(work.rolling_arm) ? 3 : is_positive(work.twist_arm) ? 1 : 0;
 
   renew_response(a.inverse_inertia, b.inverse_inertia, work);
 
@@ -342,14 +351,6 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
   }
   for (int i = 0; i < 2; ++i) work.friction_impulse[i] = dot(work.state.friction_impulse, work.tangent[i]);
 
-  work.friction = fine(geometric_mean(a.properties.friction, b.properties.friction));
-  work.restitution = pair_restitution(a.properties, b.properties);
-  const Scaled &rolls_a = a.properties.rolling_resistance, &rolls_b = b.properties.rolling_resistance;
-  const Scaled rolling = less(rolls_a, rolls_b) ? rolls_b : rolls_a;
-  const Real extent = min(a.extent, b.extent);
-  work.rolling_arm = fine(multiply(rolling, scaled_by_power(scaled_from(extent), -1 - unit)));
-  work.twist_arm = fine(add(multiply(work.friction, scaled_from(patch)), work.rolling_arm));
-  work.angular_rows = is_positive(work.rolling_arm) ? 3 : is_positive(work.twist_arm) ? 1 : 0;
   const Vec3<Unit>* axes[3] = {&work.normal, &work.tangent[0], &work.tangent[1]};
   for (uint32_t i = 0; i < 3; ++i) {
     work.angular_impulse[i] = Real(0.0);

@@ -2,8 +2,8 @@
 #include "solver/contact_solver.h"
 #include "solver/lanes.h"
 
-/// Reads contacts or bodies from memory into lanes, and writes them back. `count` is the number of lanes: 4, or 8 in
-/// f32 on x86-64.
+/// Reads contacts or bodies from memory into lanes, and writes them back. `count` is the number of lanes: 4, or on
+/// x86-64 also 8.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -65,42 +65,66 @@ DETENT_LANES_INLINE void read_four_words(const T* const (&from)[count], LaneInt3
 
 #if DETENT_FIXED
 typedef int64_t LaneHalf __attribute__((vector_size(16)));
-using LaneStoredInt64 = LaneTypes<4>::LaneStoredInt64;
-using LaneInt64 = LaneTypes<4>::LaneInt64;
+template <uint32_t count>
+using LaneInt64 = typename LaneTypes<count>::LaneInt64;
 
-/// Reads two numbers of 64 bits from each of four addresses, and transposes them.
-DETENT_LANES_INLINE void read_two(const void* const (&from)[4], LaneStoredInt64& first, LaneStoredInt64& second) {
-  LaneHalf row[4];
-  DETENT_UNROLL
-  for (int k = 0; k < 4; ++k) __builtin_memcpy(&row[k], from[k], sizeof(row[k]));
-  const LaneInt64 even = __builtin_shufflevector(row[0], row[2], 0, 1, 2, 3);
-  const LaneInt64 odd = __builtin_shufflevector(row[1], row[3], 0, 1, 2, 3);
-  first = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
-  second = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+/// Reads two numbers of 64 bits from each address, and transposes them.
+template <uint32_t count>
+DETENT_LANES_INLINE void read_two(const Real* const (&from)[count], LaneReals<count>& first, LaneReals<count>& second) {
+  if constexpr (count == 4) {
+    LaneHalf row[4];
+    DETENT_UNROLL
+    for (int k = 0; k < 4; ++k) __builtin_memcpy(&row[k], from[k], sizeof(row[k]));
+    const LaneInt64<4> even = __builtin_shufflevector(row[0], row[2], 0, 1, 2, 3);
+    const LaneInt64<4> odd = __builtin_shufflevector(row[1], row[3], 0, 1, 2, 3);
+    first.v = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+    second.v = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+  } else {
+    LaneReals<4> low[2], high[2];
+    read_two<4>({from[0], from[1], from[2], from[3]}, low[0], low[1]);
+    read_two<4>({from[4], from[5], from[6], from[7]}, high[0], high[1]);
+    first.v = __builtin_shufflevector(low[0].v, high[0].v, 0, 1, 2, 3, 4, 5, 6, 7);
+    second.v = __builtin_shufflevector(low[1].v, high[1].v, 0, 1, 2, 3, 4, 5, 6, 7);
+  }
 }
-DETENT_LANES_INLINE void write_two(LaneInt64 first, LaneInt64 second, void* const (&to)[4]) {
-  const LaneInt64 even = __builtin_shufflevector(first, second, 0, 4, 2, 6);
-  const LaneInt64 odd = __builtin_shufflevector(first, second, 1, 5, 3, 7);
-  const LaneHalf row[4] = {__builtin_shufflevector(even, even, 0, 1), __builtin_shufflevector(odd, odd, 0, 1),
-                           __builtin_shufflevector(even, even, 2, 3), __builtin_shufflevector(odd, odd, 2, 3)};
-  DETENT_UNROLL
-  for (int k = 0; k < 4; ++k) __builtin_memcpy(to[k], &row[k], sizeof(row[k]));
+template <uint32_t count>
+DETENT_LANES_INLINE void write_two(LaneInt64<count> first, LaneInt64<count> second, Real* const (&to)[count]) {
+  if constexpr (count == 4) {
+    const LaneInt64<4> even = __builtin_shufflevector(first, second, 0, 4, 2, 6);
+    const LaneInt64<4> odd = __builtin_shufflevector(first, second, 1, 5, 3, 7);
+    const LaneHalf row[4] = {__builtin_shufflevector(even, even, 0, 1), __builtin_shufflevector(odd, odd, 0, 1),
+                             __builtin_shufflevector(even, even, 2, 3), __builtin_shufflevector(odd, odd, 2, 3)};
+    DETENT_UNROLL
+    for (int k = 0; k < 4; ++k) __builtin_memcpy(to[k], &row[k], sizeof(row[k]));
+  } else {
+    write_two<4>(__builtin_shufflevector(first, first, 0, 1, 2, 3), __builtin_shufflevector(second, second, 0, 1, 2, 3),
+                 {to[0], to[1], to[2], to[3]});
+    write_two<4>(__builtin_shufflevector(first, first, 4, 5, 6, 7), __builtin_shufflevector(second, second, 4, 5, 6, 7),
+                 {to[4], to[5], to[6], to[7]});
+  }
 }
 
-DETENT_LANES_INLINE LaneReals<4> read_real(const Real* const (&from)[4]) {
-  return {LaneInt64{from[0]->raw, from[1]->raw, from[2]->raw, from[3]->raw}};
-}
-DETENT_LANES_INLINE void write_real(LaneReals<4> from, Real* const (&to)[4]) {
+template <uint32_t count>
+DETENT_LANES_INLINE LaneReals<count> read_real(const Real* const (&from)[count]) {
+  LaneInt64<count> words;
   DETENT_UNROLL
-  for (int k = 0; k < 4; ++k) to[k]->raw = from.v[k];
+  for (uint32_t k = 0; k < count; ++k) words[k] = from[k]->raw;
+  return {words};
 }
-DETENT_LANES_INLINE void read_three(const Real* const (&from)[4], LaneReals<4> (&to)[3]) {
-  read_two({from[0], from[1], from[2], from[3]}, to[0].v, to[1].v);
-  to[2] = read_real({from[0] + 2, from[1] + 2, from[2] + 2, from[3] + 2});
+template <uint32_t count>
+DETENT_LANES_INLINE void write_real(LaneReals<count> from, Real* const (&to)[count]) {
+  DETENT_UNROLL
+  for (uint32_t k = 0; k < count; ++k) to[k]->raw = from.v[k];
 }
-DETENT_LANES_INLINE void write_three(const LaneReals<4> (&from)[3], Real* const (&to)[4]) {
-  write_two(from[0].v, from[1].v, {to[0], to[1], to[2], to[3]});
-  write_real(from[2], {to[0] + 2, to[1] + 2, to[2] + 2, to[3] + 2});
+template <uint32_t count>
+DETENT_LANES_INLINE void read_three(const Real* const (&from)[count], LaneReals<count> (&to)[3]) {
+  read_two(from, to[0], to[1]);
+  to[2] = read_real(EachLane<const Real*, count>([&](uint32_t k) { return from[k] + 2; }).of);
+}
+template <uint32_t count>
+DETENT_LANES_INLINE void write_three(const LaneReals<count> (&from)[3], Real* const (&to)[count]) {
+  write_two<count>(from[0].v, from[1].v, to);
+  write_real(from[2], EachLane<Real*, count>([&](uint32_t k) { return to[k] + 2; }).of);
 }
 
 #else

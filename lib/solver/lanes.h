@@ -4,7 +4,7 @@
 
 /// Lanes: registers that hold one number of each of four or eight contacts. The operations of block.h are applied to
 /// each lane, and give the same bits as for a single contact. Only for files that are compiled for processors with
-/// vector registers: of 256 bits on x86-64, of at least 128 bits elsewhere.
+/// vector registers: of 256 bits on x86-64 (for eight lanes in fixed point 512), of at least 128 bits elsewhere.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -12,6 +12,27 @@ inline namespace DETENT_NAMESPACE {
 
 #if DETENT_FIXED
 using LaneNumber = double;
+
+// Instructions for registers of 512 bits, whose builtins depend on the compiler.
+/// The mask of all lanes. Its type differs between builtins.
+struct AllLanes {
+  constexpr operator char() const { return static_cast<char>(-1); }
+  constexpr operator unsigned char() const { return 255; }
+};
+inline constexpr AllLanes k_all_lanes;
+inline constexpr int k_current_rounding = 4;
+#if defined(__clang__)
+#define DETENT_MAXPD512(a, b) __builtin_ia32_maxpd512(a, b, k_current_rounding)
+#define DETENT_MINPD512(a, b) __builtin_ia32_minpd512(a, b, k_current_rounding)
+#define DETENT_PMULDQ512(a, b) __builtin_ia32_pmuldq512(a, b)
+#define DETENT_LZCNTQ512(a) __builtin_ia32_vplzcntq_512(a)
+#else
+typedef long long LaneWords512 __attribute__((vector_size(64)));
+#define DETENT_MAXPD512(a, b) __builtin_ia32_maxpd512_mask(a, b, a, k_all_lanes, k_current_rounding)
+#define DETENT_MINPD512(a, b) __builtin_ia32_minpd512_mask(a, b, a, k_all_lanes, k_current_rounding)
+#define DETENT_PMULDQ512(a, b) __builtin_ia32_pmuldq512_mask(a, b, LaneWords512{}, k_all_lanes)
+#define DETENT_LZCNTQ512(a) __builtin_ia32_vplzcntq_512_mask(a, LaneWords512{}, k_all_lanes)
+#endif
 #else
 using LaneNumber = Real;
 #endif
@@ -32,6 +53,7 @@ struct LaneVectors<4> {
   typedef int64_t Int64 __attribute__((vector_size(32)));
   typedef uint64_t Uint64 __attribute__((vector_size(32)));
   typedef int64_t StoredInt64 __attribute__((vector_size(32), aligned(8)));
+  typedef int32_t Words __attribute__((vector_size(32)));
 #endif
 };
 
@@ -41,9 +63,17 @@ struct LaneVectors<8> {
   typedef int32_t StoredInt32 __attribute__((vector_size(32), aligned(8)));
   typedef float Single __attribute__((vector_size(32)));
   typedef float StoredSingle __attribute__((vector_size(32), aligned(8)));
+#if DETENT_FIXED
+  typedef double Float __attribute__((vector_size(64)));
+  typedef int64_t Int64 __attribute__((vector_size(64)));
+  typedef uint64_t Uint64 __attribute__((vector_size(64)));
+  typedef int64_t StoredInt64 __attribute__((vector_size(64), aligned(8)));
+  typedef int32_t Words __attribute__((vector_size(64)));
+  typedef long long LongInt64 __attribute__((vector_size(64)));
+#endif
 };
 
-/// The numbers of `count` contacts, and the operations on them. Range of `count`: 4; in f32 on x86-64 also 8. An
+/// The numbers of `count` contacts, and the operations on them. Range of `count`: 4; on x86-64 also 8. An
 /// operation is a friend function, which a call finds by the types of its arguments; an operation on plain vectors is a
 /// static member.
 template <uint32_t count>
@@ -91,8 +121,7 @@ struct LaneTypes {
     LaneUnits value;
   };
 
-  DETENT_LANES_INLINE static Lanes lanes_of(double value) { return {LaneFloat{value, value, value, value}}; }
-  DETENT_LANES_INLINE static LaneInt64 words_of(int64_t value) { return LaneInt64{value, value, value, value}; }
+  DETENT_LANES_INLINE static LaneInt64 words_of(int64_t value) { return LaneInt64{} + value; }
 
 #else
 
@@ -108,14 +137,14 @@ struct LaneTypes {
   using LaneShare = Lanes;
   using LaneScaled = Lanes;
 
-  DETENT_LANES_INLINE static Lanes lanes_of(Real value) {
+#endif
+
+  DETENT_LANES_INLINE static Lanes lanes_of(LaneNumber value) {
     LaneFloat v;
     DETENT_UNROLL
     for (uint32_t k = 0; k < count; ++k) v[k] = value;
     return {v};
   }
-
-#endif
 
   struct LaneMask {
     LaneMaskBits v;
@@ -135,13 +164,22 @@ struct LaneTypes {
 // it may ignore NaN and -0.
 #if defined(__AVX2__) && DETENT_FIXED
   friend DETENT_LANES_INLINE Lanes select(LaneMask mask, Lanes a, Lanes b) {
-    return {__builtin_ia32_blendvpd256(b.v, a.v, reinterpret_cast<LaneFloat>(mask.v))};
+    if constexpr (count == 8) return {mask.v ? a.v : b.v};
+    if constexpr (count == 4) return {__builtin_ia32_blendvpd256(b.v, a.v, reinterpret_cast<LaneFloat>(mask.v))};
   }
   DETENT_LANES_INLINE static bool any(LaneMask mask) {
-    return __builtin_ia32_movmskpd256(reinterpret_cast<LaneFloat>(mask.v)) != 0;
+    if constexpr (count == 8)
+      return __builtin_ia32_movmskps256(reinterpret_cast<LaneSingle>(__builtin_convertvector(mask.v, LaneInt32))) != 0;
+    if constexpr (count == 4) return __builtin_ia32_movmskpd256(reinterpret_cast<LaneFloat>(mask.v)) != 0;
   }
-  friend DETENT_LANES_INLINE Lanes max(Lanes a, Lanes b) { return {__builtin_ia32_maxpd256(b.v, a.v)}; }
-  friend DETENT_LANES_INLINE Lanes min(Lanes a, Lanes b) { return {__builtin_ia32_minpd256(b.v, a.v)}; }
+  friend DETENT_LANES_INLINE Lanes max(Lanes a, Lanes b) {
+    if constexpr (count == 8) return {DETENT_MAXPD512(b.v, a.v)};
+    if constexpr (count == 4) return {__builtin_ia32_maxpd256(b.v, a.v)};
+  }
+  friend DETENT_LANES_INLINE Lanes min(Lanes a, Lanes b) {
+    if constexpr (count == 8) return {DETENT_MINPD512(b.v, a.v)};
+    if constexpr (count == 4) return {__builtin_ia32_minpd256(b.v, a.v)};
+  }
 #elif defined(__AVX2__) && defined(DETENT_F32)
   friend DETENT_LANES_INLINE Lanes select(LaneMask mask, Lanes a, Lanes b) {
     const LaneFloat bits = reinterpret_cast<LaneFloat>(mask.v);
@@ -188,9 +226,10 @@ struct LaneTypes {
   }
   /// Products of the low 32 bits of each lane of a and b, as signed integers.
   DETENT_LANES_INLINE static LaneInt64 multiplied(LaneInt64 a, LaneInt64 b) {
-    using Words = LaneVectors<8>::Int32;
-    return reinterpret_cast<LaneInt64>(
-        __builtin_ia32_pmuldq256(reinterpret_cast<Words>(a), reinterpret_cast<Words>(b)));
+    using Words = typename LaneVectors<count>::Words;
+    const Words words_a = reinterpret_cast<Words>(a), words_b = reinterpret_cast<Words>(b);
+    if constexpr (count == 8) return reinterpret_cast<LaneInt64>(DETENT_PMULDQ512(words_a, words_b));
+    if constexpr (count == 4) return reinterpret_cast<LaneInt64>(__builtin_ia32_pmuldq256(words_a, words_b));
   }
   /// 2^exponent. Range: |exponent| <= 1022.
   DETENT_LANES_INLINE static Lanes power_of_two(LaneInt64 exponent) {
@@ -228,12 +267,13 @@ struct LaneTypes {
   }
   friend DETENT_LANES_INLINE Lanes held(Lanes a) { return limited(a); }
   friend DETENT_LANES_INLINE LaneProduct product(Lanes a, Lanes b) { return {a.v, b.v}; }
-  friend DETENT_LANES_INLINE Lanes operator+(Lanes a, LaneProduct b) {
-    return {__builtin_ia32_vfmaddpd256(b.a, b.b, a.v)};
+  /// a b + c.
+  DETENT_LANES_INLINE static Lanes fused(LaneFloat a, LaneFloat b, LaneFloat c) {
+    if constexpr (count == 8) return {__builtin_ia32_vfmaddpd512_mask(a, b, c, k_all_lanes, k_current_rounding)};
+    if constexpr (count == 4) return {__builtin_ia32_vfmaddpd256(a, b, c)};
   }
-  friend DETENT_LANES_INLINE Lanes operator-(Lanes a, LaneProduct b) {
-    return {__builtin_ia32_vfmaddpd256(-b.a, b.b, a.v)};
-  }
+  friend DETENT_LANES_INLINE Lanes operator+(Lanes a, LaneProduct b) { return fused(b.a, b.b, a.v); }
+  friend DETENT_LANES_INLINE Lanes operator-(Lanes a, LaneProduct b) { return fused(-b.a, b.b, a.v); }
   friend DETENT_LANES_INLINE Lanes operator+(LaneProduct a, Lanes b) { return b + a; }
   friend DETENT_LANES_INLINE Lanes operator+(LaneProduct a, LaneProduct b) { return Lanes(a) + b; }
   friend DETENT_LANES_INLINE Lanes operator-(LaneProduct a, LaneProduct b) { return Lanes(a) - b; }
@@ -241,7 +281,10 @@ struct LaneTypes {
   friend DETENT_LANES_INLINE Lanes& operator-=(Lanes& a, LaneProduct b) { return a = a - b; }
   /// Rounds down to an integer.
   friend DETENT_LANES_INLINE Lanes rounded_down(Lanes sum) {
-    return {__builtin_ia32_roundpd256(sum.v, 9)};  // without exceptions
+    constexpr int k_down_without_exceptions = 9;
+    if constexpr (count == 8)
+      return {__builtin_ia32_rndscalepd_mask(sum.v, k_down_without_exceptions, sum.v, k_all_lanes, k_current_rounding)};
+    if constexpr (count == 4) return {__builtin_ia32_roundpd256(sum.v, k_down_without_exceptions)};
   }
   /// Rounds to an integer: to nearest, ties up.
   friend DETENT_LANES_INLINE Lanes rounded(Lanes sum) { return rounded_down(sum + lanes_of(0.5)); }
@@ -260,7 +303,7 @@ struct LaneTypes {
     }
     /// Makes settle() choose a block in which the first `used` values fit. Combines their magnitudes by `or`.
     DETENT_LANES_INLINE void include(const LaneReals* values, uint32_t used) {
-      LaneInt64 all = {0, 0, 0, 0};
+      LaneInt64 all = {};
       for (uint32_t i = 0; i < used; ++i) all |= magnitude(values[i]);
       include_bits(all, k_number_drop);
     }
@@ -275,8 +318,13 @@ struct LaneTypes {
     }
     DETENT_LANES_INLINE void settle() {
       LaneInt64 least;
-      for (int i = 0; i < 4; ++i) least[i] = bit_length_64(static_cast<uint64_t>(bits_[i]));
-      least += words_of(k_bits_power);
+      if constexpr (count == 8) {
+        const auto bits = reinterpret_cast<typename LaneVectors<count>::LongInt64>(bits_);
+        least = words_of(64 + k_bits_power) - reinterpret_cast<LaneInt64>(DETENT_LZCNTQ512(bits));
+      } else {
+        for (uint32_t i = 0; i < count; ++i) least[i] = bit_length_64(static_cast<uint64_t>(bits_[i]));
+        least += words_of(k_bits_power);
+      }
       shift_ = least > shift_ ? least : shift_;
     }
     DETENT_LANES_INLINE Vec3<Lanes> mantissas(const Vec3<LaneReals>& v, int exponent) const {
@@ -302,7 +350,7 @@ struct LaneTypes {
       return {part(v.x), part(v.y), part(v.z)};
     }
     DETENT_LANES_INLINE Vec3<LaneReals> real(const Vec3<Lanes>& v, const LaneShare& share, int exponent) const {
-      return real(v, share, LaneInt32{exponent, exponent, exponent, exponent});
+      return real(v, share, LaneInt32{} + exponent);
     }
     DETENT_LANES_INLINE Lanes converted(Lanes ulps, const LaneBlock& from, int exponent) const {
       const LaneInt64 n = clamp_words(from.shift_ + words_of(exponent) - shift_, -63, 31);
@@ -329,7 +377,7 @@ struct LaneTypes {
     DETENT_LANES_INLINE void include_bits(LaneInt64 all, int drop) {
       bits_ |= reinterpret_cast<LaneInt64>(reinterpret_cast<LaneUint64>(all) >> static_cast<uint64_t>(drop));
     }
-    LaneInt64 bits_ = {0, 0, 0, 0};
+    LaneInt64 bits_ = {};
     LaneInt64 shift_ = words_of(k_shift_min);
   };
 

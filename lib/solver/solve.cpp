@@ -239,11 +239,14 @@ void renew_responses(const StepSettings& settings, const SolverBodies& bodies, c
 }  // namespace
 
 #if DETENT_QUADS
-bool has_lanes() {
-#if defined(__x86_64__)
-  return has_avx2_and_fma();
+uint32_t lanes_of_machine() {
+#if DETENT_WIDE_LANES
+  if (has_avx512()) return 8;
+  return has_avx2_and_fma() ? 4 : 1;
+#elif defined(__x86_64__)
+  return has_avx2_and_fma() ? k_lanes_max : 1;
 #else
-  return true;
+  return k_lanes_max;
 #endif
 }
 #endif

@@ -84,7 +84,7 @@ Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, c
                                        def.capacity.joints,
                                        def.capacity.sensed,
                                        0};
-  world = {block, &features, has_lanes() ? k_lanes_max : 1u, hooks};
+  world = {block, &features, lanes_of_machine(), hooks};
   store_settings(def, view_of(world).world, def.capacity.manifolds);
   return Status::ok;
 }

@@ -60,7 +60,7 @@ foreach(line IN LISTS lines)
     list(APPEND defined ${symbol})
   endif()
   # Compiled for a machine that not every caller has: the linker may take a weak function of it for another object's.
-  if(object MATCHES "^solve_quads" AND class STREQUAL "W" AND NOT symbol MATCHES "4Four|Quad")
+  if(object MATCHES "^(solve|wide)_lanes" AND class STREQUAL "W")
     list(APPEND faults "${object}: ${symbol} may run on a machine without its instructions")
   endif()
   if(symbol MATCHES "^_GLOBAL__sub_I_")

@@ -140,7 +140,7 @@ struct Rows : Samples {
 
 /// Contacts that are solved at once, each of two bodies.
 struct Group {
-  uint32_t count = k_lanes_max;
+  uint32_t count = lanes_of_machine();
   BodyProperties properties[16] = {};
   BodyMotion motions[16] = {};
   BodyWork work[16] = {};
@@ -150,7 +150,7 @@ struct Group {
 
   SolverBodies bodies() { return {{properties, 16}, {motions, 16}, {work, 16}}; }
   void fill(Rows& rows) {
-    count = 2 + rows.below(k_lanes_max - 1);
+    count = 2 + rows.below(lanes_of_machine() - 1);
     rows.apart = rows.below(3) == 0;
     rows.lengths = rows.apart ? 36 : 60;
     const bool single = rows.below(4) == 0;
@@ -194,7 +194,7 @@ bool have_same_bits(const Group& one, const Group& many) {
 }
 
 DETENT_TEST(lane_rows, at_the_ends_of_their_ranges_give_the_bits_of_one_contact_at_a_time) {
-  if (k_lanes_max == 1 || !has_lanes()) GTEST_SKIP() << "this machine, or this build, takes one contact at a time";
+  if (lanes_of_machine() == 1) GTEST_SKIP() << "this machine, or this build, takes one contact at a time";
   static Rows rows = {{20261127}, false};
   for (uint32_t group = 0; group < k_groups; ++group) {
     rows.full = rows.below(2) == 0;
@@ -231,7 +231,7 @@ DETENT_TEST(lane_rows, at_the_ends_of_their_ranges_give_the_bits_of_one_contact_
 /// A contact with two points beside one with four: its bodies approach, but its points stay apart. A third point would
 /// touch, and its speed would make the block of all numbers coarser.
 DETENT_TEST(lane_rows, that_a_contact_does_not_have_change_nothing) {
-  if (k_lanes_max == 1 || !has_lanes()) GTEST_SKIP() << "this machine, or this build, takes one contact at a time";
+  if (lanes_of_machine() == 1) GTEST_SKIP() << "this machine, or this build, takes one contact at a time";
   Rows rows = {{1}};
   StepSettings settings = {};
   settings.relaxation = Unit(1.0);

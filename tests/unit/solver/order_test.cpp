@@ -290,7 +290,7 @@ DETENT_TEST(order, contacts_of_one_colour_may_be_solved_in_any_order) {
 
 /// Contacts of a colour are solved in groups, as many at once as there are lanes. Each group has lanes of its own.
 DETENT_TEST(order, contacts_are_grouped_as_the_lanes_permit) {
-  if (k_lanes_max == 1 || !has_lanes()) GTEST_SKIP() << "this machine, or this build, takes one contact at a time";
+  if (lanes_of_machine() == 1) GTEST_SKIP() << "this machine, or this build, takes one contact at a time";
   Lab lab({80, 500, 0});
   lab.add_ground();
   for (int i = 0; i < 63; ++i)
@@ -299,7 +299,7 @@ DETENT_TEST(order, contacts_are_grouped_as_the_lanes_permit) {
   const Scene start(lab);
   Scene one = start;
   one.run();
-  for (uint32_t lanes = 4; lanes <= k_lanes_max; lanes *= 2) {
+  for (uint32_t lanes = 4; lanes <= lanes_of_machine(); lanes *= 2) {
     Scene grouped = start;
     grouped.settings.lanes = lanes;
     grouped.run();
