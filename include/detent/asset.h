@@ -39,7 +39,7 @@ struct HullInfo {
   int32_t exponent = 0;                    ///< the hull's unit of length is 2^exponent m
   int32_t core_radius = 0;      ///< greatest distance of a vertex from the origin, in 2^-30 of the unit, rounded up
   int32_t volume_mantissa = 0;  ///< the volume is volume_mantissa x 2^volume_exponent m^3
-  int32_t volume_exponent = 0;  ///< see volume_mantissa
+  int32_t volume_exponent = 0;  ///< exponent of the volume, as in volume_mantissa
   double origin[3] = {};        ///< the body's origin in the source frame, m
   int32_t rotation[4] = {};     ///< x, y, z, w in 2^-30: v_source = rotation v_body rotation* + origin
 };
@@ -91,7 +91,7 @@ struct CompoundInfo {
   int32_t radius = 0;           ///< greatest distance of the surface from the origin, in 2^-30 of the unit, rounded up
   int32_t half_thickness = 0;   ///< least half thickness of a child, in 2^-30 of the unit, rounded down
   int32_t volume_mantissa = 0;  ///< the volume is volume_mantissa x 2^volume_exponent m^3
-  int32_t volume_exponent = 0;  ///< see volume_mantissa
+  int32_t volume_exponent = 0;  ///< exponent of the volume, as in volume_mantissa
   double origin[3] = {};        ///< the body's origin in the source frame, m
   int32_t rotation[4] = {};     ///< x, y, z, w in 2^-30: v_source = rotation v_body rotation* + origin
 };

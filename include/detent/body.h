@@ -18,9 +18,9 @@ struct World;
 /// body in the same slot has another generation. A slot whose generation would overflow is no longer used, and is
 /// counted in `WorldInfo::slots_retired`.
 struct BodyId {
-  uint32_t slot = 0;        ///< index + 1; 0 is null
-  uint32_t generation = 0;  ///< 1 for the first body of a slot
-  /// Whether both name the same body.
+  uint32_t slot = 0;        ///< index of the body's slot, plus 1; 0: the null id
+  uint32_t generation = 0;  ///< number of the body among the bodies that its slot has had; the first has 1
+  /// Whether `a` and `b` name the same body.
   friend constexpr bool operator==(BodyId a, BodyId b) { return a.slot == b.slot && a.generation == b.generation; }
   /// An order for sorted containers: by slot, then by generation.
   friend constexpr bool operator<(BodyId a, BodyId b) {
@@ -55,8 +55,9 @@ struct FilterBody {
 };
 
 /// Returns whether `own`, the body that has the rule, can collide with `other`. The result must depend only on the
-/// arguments, because the library may call the rule at any time. For the same arguments it must be the same on every
-/// machine that simulates the world. A step calls the rules one at a time, also with WorldHooks::tasks.
+/// arguments, because the library may call the rule at any time. For the same arguments, the result must be the same on
+/// every machine that simulates the world. A step makes these calls one at a time, even if it uses several threads
+/// (WorldHooks::tasks).
 using FilterRule = bool (*)(const FilterBody& own, const FilterBody& other);
 
 /// The filter rules of a world. Rule n is rules[n - 1]. The caller chooses the order, which must be the same on every
@@ -75,17 +76,19 @@ enum class BodyType : uint32_t {
 
 /// How the two restitutions of a pair combine. Stored in snapshots and recordings: a value is never reused.
 enum class RestitutionRule : uint32_t {
-  larger = 0,   ///< the larger one: a bouncy ball bounces on anything
-  smaller = 1,  ///< the smaller one, if either material has this rule: a damping surface damps every body that hits it
+  larger = 0,  ///< the pair uses the larger restitution: a bouncy ball bounces on anything
+  /// If either material has this rule, the pair uses the smaller restitution: a damping surface damps every body that
+  /// hits it.
+  smaller = 1,
 };
 
-/// Surface properties. A pair uses the geometric mean of the two frictions, the larger rolling resistance, and the
-/// larger restitution unless one of the materials has RestitutionRule::smaller.
+/// Surface properties. A pair uses the geometric mean of the two frictions and the larger rolling resistance. It uses
+/// the larger restitution, or the smaller one if either material has RestitutionRule::smaller.
 struct Material {
   Real friction = Real(0.6);  ///< Coulomb's coefficient, [0, 16]
   Real restitution = 0.0;     ///< rebound speed over approach speed, [0, 1]
   /// The largest torque of rolling resistance about any axis, divided by (normal force x half the pair's smaller
-  /// extent); [0, 16]. Half the extent of a ball is its radius (WorldDef).
+  /// extent); [0, 16]. A body's extent is its smallest diameter (WorldDef), so half the extent of a ball is its radius.
   Real rolling_resistance = 0.0;
   /// The pair uses the smaller restitution if either material has the rule `smaller`.
   RestitutionRule restitution_rule = RestitutionRule::larger;
@@ -95,15 +98,15 @@ struct Material {
 /// inertia about this axis were infinite. Combine with |. Angular velocity about a locked axis is removed. If two axes
 /// are locked, the third keeps its direction in the world: to keep a figure upright, lock x and z.
 inline constexpr uint32_t k_rotation_lock_x = 1;
-inline constexpr uint32_t k_rotation_lock_y = 2;     ///< as k_rotation_lock_x, for the y axis
-inline constexpr uint32_t k_rotation_lock_z = 4;     ///< as k_rotation_lock_x, for the z axis
+inline constexpr uint32_t k_rotation_lock_y = 2;     ///< locks the rotation about the body's y axis
+inline constexpr uint32_t k_rotation_lock_z = 4;     ///< locks the rotation about the body's z axis
 inline constexpr uint32_t k_rotation_locks_all = 7;  ///< no rotation at all
 
 /// The properties of a body that `create_body` makes. Every field has a working default.
 struct BodyDef {
   /// How the body moves; a half-space or a terrain (a mesh or height field) must be fixed or kinematic.
   BodyType type = BodyType::dynamic;
-  Position position = {0.0, 0.0, 0.0};           ///< of the centre of mass, m, world
+  Position position = {0.0, 0.0, 0.0};           ///< position of the centre of mass, m, world
   Quat rotation = {0.0, 0.0, 0.0, 1.0};          ///< local to world; length 1 within 2^-10, normalised on entry
   Vec3<Real> linear_velocity = {0.0, 0.0, 0.0};  ///< m/s, world; each component within +-16384
   /// Angular velocity, rad/s, world; each component x bounding radius within +-16384 m/s.
@@ -124,7 +127,7 @@ struct BodyDef {
   Real gravity_scale = 1.0;     ///< factor on the world's gravity, [-1024, 1024]
   uint32_t user_data = 0;       ///< stored, digested and recorded; only filter rules read it
   uint32_t rotation_locks = 0;  ///< k_rotation_lock_x, ...: body axes about which the body cannot rotate
-  Filter filter = {};           ///< the bodies with which it can collide
+  Filter filter = {};           ///< the bodies with which this body can collide
   /// A sensor has no contact forces, and queries and movers ignore it. It reports the bodies within it (sensor.h).
   bool sensor = false;
 };
@@ -170,7 +173,7 @@ Status set_mass(World& world, BodyId id, Scaled mass);
 /// Sets the moments of inertia about the body's axes, kg m^2, in place of those of its shape. Range: [2^-15 mass r^2,
 /// mass r^2], where r is the least power of two, m, above the bounding radius. The value about a locked axis has no
 /// effect, but must be in (0, mass r^2]. The angular velocity stays. set_mass() scales the moments with the mass;
-/// set_shape(), set_type() and set_rotation_locks() restore those of the shape.
+/// set_shape(), set_type() and set_rotation_locks() replace them by the moments of the shape.
 /// Errors: bad_argument (the body is not dynamic), out_of_range.
 Status set_inertia(World& world, BodyId id, const Vec3<Scaled>& inertia);
 /// As set_mass(), with the mass `density` x volume of the shape. `density`: kg/m^3, [2^-60, 2^60].
@@ -209,8 +212,8 @@ struct Explosion {
   /// towards the centre.
   Scaled impulse = 100.0;
 };
-/// Applies an impulse at once to each dynamic body with d < radius, in slot order. The impulse acts at the centre of
-/// mass and points away from the centre of the explosion. Its magnitude is
+/// Applies an impulse at once to each dynamic body whose distance d, defined below, is less than `radius`, in slot
+/// order. The impulse acts at the centre of mass and points away from the centre of the explosion. Its magnitude is
 ///
 ///     impulse x pi b^2 x (1 - d / radius),   d = max(distance of the centres - b, 0),
 ///

@@ -34,7 +34,7 @@ inline constexpr uint32_t k_contact_points_max = 4;
 /// A contact point: a place where the two surfaces face each other along the manifold's normal.
 struct ManifoldPoint {
   Vec3<Real> from_a = {};  ///< midway between the surfaces, m, from A's position, world axes
-  Vec3<Real> from_b = {};  ///< the same point, m, from B's position, world axes
+  Vec3<Real> from_b = {};  ///< the point of `from_a`, m, but from B's position, world axes
   Real separation = 0.0;   ///< m, along the normal; negative where the shapes overlap
   /// The key of the two features (vertex, edge or face) of A and of B that meet at the point. Never 0; distinct within
   /// a manifold; constant as long as the same features meet. If A and B are exchanged, its two 12-bit halves are
@@ -102,9 +102,9 @@ struct Contact {
   uint32_t age = 0;            ///< ticks for which the contact existed before the last tick, at most 65535
   uint32_t point_count = 0;    ///< number of points, at most 4
   ContactPoint point[4] = {};  ///< the first `point_count` elements are in use
-  Vec3<Scaled> friction_impulse = {};  ///< on B, N s, world, over the last tick
-  Scaled normal_impulse = 0.0;         ///< of all points, N s, over the last tick
-  Scaled normal_force = 0.0;           ///< of all points, mean over the tick, N
+  Vec3<Scaled> friction_impulse = {};  ///< friction impulse on B over the last tick, N s, world
+  Scaled normal_impulse = 0.0;         ///< sum over all points, over the last tick, N s
+  Scaled normal_force = 0.0;           ///< sum over all points, mean over the last tick, N
 };
 
 /// Reads the contact `index`, 0 to get_info(world).contacts - 1, in the order of (a.slot, b.slot, part). The function

@@ -21,7 +21,7 @@ struct Convex {
   /// 0, 0), or 0 if the half thickness is read from the cooked bytes.
   int32_t size[3] = {};
   int32_t core_radius = 0;        ///< greatest distance of a core point from the origin, rounded up
-  int32_t radius = 0;             ///< of the ball, in 2^-30 2^radius_exponent m
+  int32_t radius = 0;             ///< radius of the ball, in units of 2^(radius_exponent - 30) m
   int32_t radius_exponent = 0;    ///< separate from `exponent`: the ball may be far larger than the core
   int32_t corner[3][3] = {};      ///< triangle: its corners
   uint32_t vertex_count = 0;      ///< hull: number of vertices
@@ -31,7 +31,7 @@ struct Convex {
 /// Prepares a sphere, capsule, box, cylinder, cone or half-space. Sizes: [2^-14, 2^14] m; the half_length of a capsule
 /// and the rounding may also be 0. The ratio of a core's largest to its smallest size is at most 2^14.
 /// Rounding: each size to nearest, to within 2^-31 of the shape's unit. Errors: out_of_range; bad_argument (another
-/// type, or rounding of a sphere, capsule or half-space).
+/// type; or Shape::rounding is not 0 for a sphere, capsule or half-space).
 Status make_convex(const Shape& shape, Convex& convex);
 
 /// Prepares a hull cooked by `detent cook`, grown by a ball of radius `rounding`, m (0, or [2^-14, 2^14]). The bytes
@@ -46,7 +46,7 @@ Status make_triangle(const Vec3<Real> (&corners)[3], Real rounding, Convex& conv
 /// The vertices of the last simplex of GJK for a pair, from which the next query of the pair starts. Any content is
 /// safe: it changes only the run time, and the choice among equally near points.
 struct DistanceCache {
-  uint8_t count = 0;         ///< number of vertices in use; 0 when new
+  uint8_t count = 0;         ///< number of vertices of the simplex; 0 when new
   uint8_t vertex_a[4] = {};  ///< vertices of A; the first `count` are in use
   uint8_t vertex_b[4] = {};  ///< vertices of B; the first `count` are in use
 };
@@ -60,9 +60,9 @@ struct Closest {
   bool overlap = false;     ///< the shapes (cores rounded by their balls) overlap: the distance is 0
   bool capped = false;      ///< GJK reached its cap: `distance` is a lower bound; if it is 0, overlap is undecided
   Real distance = 0.0;      ///< m, between the surfaces
-  Vec3<Unit> normal = {};   ///< from A to B, world axes; zero if the cores overlap
-  Vec3<Real> point_a = {};  ///< on A's surface, m, from A's position, world axes
-  Vec3<Real> point_b = {};  ///< on B's surface, m, from B's position, world axes
+  Vec3<Unit> normal = {};   ///< direction from A to B, world axes; zero if the cores overlap
+  Vec3<Real> point_a = {};  ///< closest point on A's surface, m, from A's position, world axes
+  Vec3<Real> point_b = {};  ///< closest point on B's surface, m, from B's position, world axes
   uint32_t iterations = 0;  ///< number of support points computed
 };
 
@@ -74,15 +74,15 @@ struct Closest {
 Status closest_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Closest& result,
                       DistanceCache* cache = nullptr);
 
-/// Sets `result` to whether the shapes overlap or touch. For polytopes the test is exact, except for an error of
-/// k_distance_error by the rounding of their poses. If GJK reaches its iteration cap, or if the rounding of the balls'
-/// radii leaves the answer undecided, `result` is true. Errors: as closest_points().
+/// Sets `result` to whether the shapes overlap or touch. For polytopes the test is exact, except that the rounding of
+/// their poses causes an error of k_distance_error times the pair's extent. If GJK reaches its iteration cap, or if the
+/// rounding of the balls' radii leaves the answer undecided, `result` is true. Errors: as closest_points().
 Status overlap(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, bool& result,
                DistanceCache* cache = nullptr);
 
 /// Sets `result` to whether the distance of the shapes exceeds `distance_max`, m. If `result` is true, this is certain.
-/// If it is false, the distance may exceed `distance_max` by k_distance_error. Errors: as closest_points(), and
-/// out_of_range for distance_max < 0.
+/// If `result` is false, the distance may exceed `distance_max` by k_distance_error times the pair's extent. Errors: as
+/// closest_points(), and out_of_range for distance_max < 0.
 Status farther_than(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real distance_max,
                     bool& result, DistanceCache* cache = nullptr);
 
@@ -90,9 +90,9 @@ Status farther_than(const Convex& a, const Pose& pose_a, const Convex& b, const 
 struct CastHit {
   bool hit = false;        ///< the cast hits the shape within its displacement
   bool undecided = false;  ///< an iteration cap was reached: no hit before `time`; a later hit is possible
-  Fraction time = 0.0;     ///< fraction of the displacement before the hit, never late; 1 if there is no hit
+  Fraction time = 0.0;     ///< fraction of the displacement up to the hit, never too large; 1 if there is no hit
   Vec3<Real> point = {};   ///< the hit point on the shape, m, from the shape's position, world axes
-  Vec3<Unit> normal = {};  ///< of the shape at `point`, outward, world axes; zero if the cast starts in the core
+  Vec3<Unit> normal = {};  ///< outward normal at `point`, world axes; zero if the cast starts in the shape's core
 };
 
 /// Finds where the segment from `origin` (m, from the shape's position, world axes) to `origin` + `displacement` (m)

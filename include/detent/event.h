@@ -9,7 +9,7 @@ inline namespace DETENT_NAMESPACE {
 
 /// The type of a contact event.
 enum class ContactEventType : uint32_t {
-  begin = 1,  ///< the bodies push each other; they did not in the last step
+  begin = 1,  ///< the bodies push each other; in the last step they did not
   touch = 2,  ///< the bodies push each other, as in the last step
   end = 3,    ///< the bodies pushed each other in the last step, and no longer do
   /// An impact, in one of two cases. First, the bodies have a begin or touch event, and they approached at the
@@ -24,8 +24,9 @@ struct ContactEvent {
   ContactEventType type = ContactEventType::begin;  ///< what happened
   BodyId a;                                         ///< the body with the lower slot
   BodyId b;                                         ///< the body with the higher slot
-  Vec3<Unit> normal = {};                           ///< from A to B, world; zero for an end
-  Position point = {};       ///< the middle of the contact points or the point of impact, m, world; zero for an end
+  Vec3<Unit> normal = {};                           ///< from A to B, world; zero if `type` is `end`
+  /// The middle of the contact points or the point of impact, m, world; zero if `type` is `end`.
+  Position point = {};
   Real approach_speed = {};  ///< for a hit: closing speed of the surfaces, m/s; else 0
 };
 
@@ -34,7 +35,7 @@ struct ContactEvent {
 /// there are more than `capacity` events, the step drops the last ones in this order, and the report counts them.
 struct ContactEventBuffer {
   ContactEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
-  uint32_t capacity = 0;         ///< number of events
+  uint32_t capacity = 0;         ///< the number of events that `data` has room for
 };
 
 /// The type of a sensor event.
@@ -51,11 +52,11 @@ struct SensorEvent {
   BodyId body;                                    ///< the body that entered or left
 };
 
-/// The buffer to which a step writes its sensor events, in the order of (sensor.slot, body.slot, type). Its memory and
-/// its overflow are as those of ContactEventBuffer.
+/// The buffer to which a step writes its sensor events, in the order of (sensor.slot, body.slot, type). The rules
+/// for its memory, and for events beyond `capacity`, are those of ContactEventBuffer.
 struct SensorEventBuffer {
   SensorEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
-  uint32_t capacity = 0;        ///< number of events
+  uint32_t capacity = 0;        ///< the number of events that `data` has room for
 };
 
 /// The type of a body event.
@@ -70,11 +71,11 @@ struct BodyEvent {
   BodyId body;                               ///< the body that fell asleep or woke
 };
 
-/// The buffer to which a step writes its body events, in the order of the bodies' slots. Its memory and its overflow
-/// are as those of ContactEventBuffer.
+/// The buffer to which a step writes its body events, in the order of the bodies' slots. The rules for its memory, and
+/// for events beyond `capacity`, are those of ContactEventBuffer.
 struct BodyEventBuffer {
   BodyEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
-  uint32_t capacity = 0;      ///< number of events
+  uint32_t capacity = 0;      ///< the number of events that `data` has room for
 };
 
 /// Which pool of a step was full.
@@ -93,10 +94,11 @@ struct CapacityEvent {
 };
 
 /// The buffer to which a step writes its capacity events, in the order of (type, a.slot, b.slot), without duplicates.
-/// Its memory is as that of ContactEventBuffer. Events beyond `capacity` are dropped; the report does not count them.
+/// The rules for its memory are those of ContactEventBuffer. Events beyond `capacity` are dropped; the report does not
+/// count them.
 struct CapacityEventBuffer {
   CapacityEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
-  uint32_t capacity = 0;          ///< number of events
+  uint32_t capacity = 0;          ///< the number of events that `data` has room for
 };
 
 }  // namespace DETENT_NAMESPACE

@@ -29,7 +29,7 @@ inline constexpr uint32_t k_feature_intervals_max = 1024;
 /// Finds when two features first meet if their corners move in straight lines, from `start` to `end`, at constant
 /// velocity. Touching counts as meeting. The features may be degenerate.
 /// Corners: m, in one common frame; each component within 2^14.
-/// Tolerance: k_feature_tolerance times the larger of the sizes at the start and at the end, plus 2^-41 m.
+/// Tolerance: k_feature_tolerance times the features' longest edge, at the start or at the end, plus 2^-41 m.
 /// Errors: bad_argument for another kind; out_of_range.
 Status feature_toi_linear(FeatureKind kind, const Vec3<Real> (&start)[4], const Vec3<Real> (&end)[4],
                           FeatureToi& result);
@@ -38,17 +38,18 @@ Status feature_toi_linear(FeatureKind kind, const Vec3<Real> (&start)[4], const 
 /// Touching counts as meeting. The features may be degenerate. The outcome may be `undecided` if a body makes many
 /// revolutions in the step.
 /// Corners: m, in the axes of their body and relative to its position; each component within 2^14.
-/// Tolerance: the sum of three lengths: k_feature_tolerance times the size; 2^-23 times (the largest distance of A's
-/// corners from A's position + the largest distance of B's corners from B's position); 2^-41 m. Errors: bad_argument
-/// for another kind; not_normalised; out_of_range, also if a component of the displacements, or of the initial offset
-/// between the positions, is more than 2^14 m, or a rotation is more than 2^16 rad.
+/// Tolerance: the sum of three lengths: k_feature_tolerance times the features' longest edge; 2^-23 times (the largest
+/// distance of A's corners from A's position + the largest distance of B's corners from B's position); 2^-41 m.
+/// Errors: bad_argument for another kind; not_normalised; out_of_range. It is also out_of_range if a component of the
+/// displacements, or of the initial offset between the positions, is more than 2^14 m, or a rotation is more than
+/// 2^16 rad.
 Status feature_toi(FeatureKind kind, const Vec3<Real> (&corner)[4], const Motion& motion_a, const Motion& motion_b,
                    FeatureToi& result);
 
 /// The poses of a body at the beginning and at the end of a step.
 struct PosePair {
-  Pose start = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};  ///< at the beginning of the step
-  Pose end = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};    ///< at the end of the step
+  Pose start = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};  ///< pose at the beginning of the step
+  Pose end = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};    ///< pose at the end of the step
 };
 
 /// Finds when two features first meet if the poses of their bodies are given at the beginning and at the end of a step.
@@ -59,10 +60,10 @@ struct PosePair {
 /// Touching counts as meeting. The features may be degenerate.
 /// Corners: m, in the axes of their body and relative to its position; each component within 2^10. B's position
 /// relative to A's: each component within 2^10 m.
-/// Tolerance: the sum of three lengths: k_feature_tolerance times the size; 2^-21 times (the largest distance of B's
-/// corners from B's position + the distance between A's and B's positions); 2^-39 m. Errors: bad_argument for
-/// another kind; not_normalised; out_of_range, also if B rotates in A's frame by more than 2.65 rad (the tangent of
-/// half the angle is at most 4).
+/// Tolerance: the sum of three lengths: k_feature_tolerance times the features' longest edge; 2^-21 times (the largest
+/// distance of B's corners from B's position + the distance between A's and B's positions); 2^-39 m. Errors:
+/// bad_argument for another kind; not_normalised; out_of_range, also if B rotates in A's frame by more than 2.65 rad
+/// (the tangent of half the angle is at most 4).
 Status feature_toi_screw(FeatureKind kind, const Vec3<Real> (&corner)[4], const PosePair& a, const PosePair& b,
                          FeatureToi& result);
 

@@ -97,7 +97,7 @@ struct FeatureTable {
       *compound_shape;
   const PairOps *round_pair, *box_round_pair, *box_pair;
   const HalfSpaceOps* half_space;
-  const ConvexOps* convex;  ///< pairs in which a shape is a cylinder, cone, hull or rounded
+  const ConvexOps* convex;  ///< pairs in which a shape is a cylinder, cone, hull or rounded shape
   const HullOps* hull;
   const TerrainOps* terrain;
   const TerrainImpactOps* terrain_impact;

@@ -7,7 +7,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// The type of a joint: which relative motions of A and B are free. Each body has a joint frame at its anchor; x, y, z
-/// are the axes of the joint frame. Stored in snapshots and recordings: a value is never reused.
+/// are the axes of the joint frame. `axis` and `second` are the free motions to which JointDef::axis and
+/// JointDef::second apply. Stored in snapshots and recordings: a value is never reused.
 enum class JointType : uint32_t {
   /// The anchors coincide; rotation is free. `axis` is a spring that rotates B's frame to A's, with the same settings
   /// about each axis of A's frame. Only its `frequency`, `damping_ratio` and `force_max` are used.
@@ -66,9 +67,9 @@ struct JointDef {
 
 /// Names a joint by value, as a BodyId names a body.
 struct JointId {
-  uint32_t slot = 0;        ///< index + 1; 0 is null
-  uint32_t generation = 0;  ///< 1 for the first joint of a slot
-  /// Whether both name the same joint.
+  uint32_t slot = 0;        ///< index of the joint's slot, plus 1; 0: the null id
+  uint32_t generation = 0;  ///< number of the joint among the joints that its slot has had; the first has 1
+  /// Whether `a` and `b` name the same joint.
   friend constexpr bool operator==(JointId a, JointId b) { return a.slot == b.slot && a.generation == b.generation; }
   /// An order for sorted containers: by slot, then by generation.
   friend constexpr bool operator<(JointId a, JointId b) {
@@ -93,7 +94,7 @@ struct JointEvent {
   BodyId a;                     ///< JointDef::a
   BodyId b;                     ///< JointDef::b
   uint32_t user_data = 0;       ///< JointDef::user_data
-  JointReaction reaction = {};  ///< in the step in which the joint broke
+  JointReaction reaction = {};  ///< mean force and torque in the step in which the joint broke
 };
 
 /// The buffer to which a step writes its joint events, in the order of the joints' slots. The memory is the caller's,
@@ -101,7 +102,7 @@ struct JointEvent {
 /// their joints break nevertheless.
 struct JointEventBuffer {
   JointEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
-  uint32_t capacity = 0;       ///< number of events
+  uint32_t capacity = 0;       ///< the number of events that `data` has room for
 };
 
 struct World;

@@ -208,7 +208,7 @@ struct Matrix3 {
 
 /// Position and rotation of a body.
 struct Pose {
-  Position position;  ///< of the centre of mass, m, world
+  Position position;  ///< position of the centre of mass, m, world
   Quat rotation;      ///< local to world, of length 1
 };
 

@@ -36,9 +36,9 @@ struct QueryHit {
   BodyId body = {};  ///< the body
   /// If true, the body may or may not be hit: `fraction` and `distance` are lower bounds, `point` and `normal` are 0.
   bool undecided = false;
-  Fraction fraction = 0.0;  ///< casts: the fraction of the displacement until the hit, or less, never more
+  Fraction fraction = 0.0;  ///< rays and casts: fraction of the displacement up to the hit, never too large
   Real distance = 0.0;      ///< query_closest(): the distance of the surfaces, m; 0 if the shapes overlap
-  Position point = {};      ///< on the body's surface, m, world; 0 from query_bounds()
+  Position point = {};      ///< hit point on the body's surface, m, world; 0 from query_bounds()
   /// The body's outward normal at `point`, world; 0 if the hit is undecided, if the cores (the shapes without their
   /// rounding, distance.h) overlap, and from query_bounds().
   Vec3<Unit> normal = {};
@@ -52,7 +52,7 @@ struct QueryHit {
 /// counted in the report.
 struct QueryHits {
   QueryHit* data = nullptr;  ///< room for `capacity` hits
-  uint32_t capacity = 0;     ///< number of hits
+  uint32_t capacity = 0;     ///< the number of hits that `data` has room for
 };
 
 /// The counts of a query.
@@ -67,7 +67,7 @@ struct QueryReport {
 struct RayQuery {
   Position origin = {0.0, 0.0, 0.0};          ///< m, world
   Vec3<Real> displacement = {0.0, 0.0, 0.0};  ///< m, world; each component within 2^14
-  QueryFilter filter = {};                    ///< the bodies that it tests
+  QueryFilter filter = {};                    ///< the bodies that the query tests
   bool all = false;                           ///< true: find every body that the ray hits; false: only the first
 };
 
@@ -75,20 +75,20 @@ struct RayQuery {
 /// except half-space, terrain and compound; or a point, which is a sphere of radius 0.
 struct CastQuery {
   Shape shape = {};                              ///< a shape of a body, or a point
-  Position position = {0.0, 0.0, 0.0};           ///< at the start, m, world
-  Quat rotation = {0.0, 0.0, 0.0, 1.0};          ///< at the start, local to world
+  Position position = {0.0, 0.0, 0.0};           ///< position at the start, m, world
+  Quat rotation = {0.0, 0.0, 0.0, 1.0};          ///< rotation at the start, local to world
   Vec3<Real> displacement = {0.0, 0.0, 0.0};     ///< m, world; each component within 2^14
-  Vec3<Real> rotation_vector = {0.0, 0.0, 0.0};  ///< world, rad; length at most 2^16
-  QueryFilter filter = {};                       ///< the bodies that it tests
+  Vec3<Real> rotation_vector = {0.0, 0.0, 0.0};  ///< rotation of the whole cast, world axes, rad; length at most 2^16
+  QueryFilter filter = {};                       ///< the bodies that the query tests
   bool all = false;                              ///< true: find every body that the shape hits; false: only the first
 };
 
-/// A shape at rest: one that is permitted in a CastQuery.
+/// A shape at rest. The shapes are those that a CastQuery permits.
 struct OverlapQuery {
   Shape shape = {};                      ///< a shape of a body, or a point
   Position position = {0.0, 0.0, 0.0};   ///< m, world
   Quat rotation = {0.0, 0.0, 0.0, 1.0};  ///< local to world
-  QueryFilter filter = {};               ///< the bodies that it tests
+  QueryFilter filter = {};               ///< the bodies that the query tests
   bool all = false;                      ///< true: find every body that overlaps; false: only the first
 };
 
@@ -97,17 +97,17 @@ struct OverlapQuery {
 struct BoundsQuery {
   Position lower = {0.0, 0.0, 0.0};  ///< m, world
   Position upper = {0.0, 0.0, 0.0};  ///< m, world; no component is less than that of `lower`
-  QueryFilter filter = {};           ///< the bodies that it tests
+  QueryFilter filter = {};           ///< the bodies that the query tests
   bool all = false;                  ///< true: find every body that overlaps; false: only the first
 };
 
-/// A shape at rest, one that is permitted in a CastQuery, and a search distance around it.
+/// A shape at rest and a search distance around it. The shapes are those that a CastQuery permits.
 struct ClosestQuery {
   Shape shape = {};                      ///< a shape of a body, or a point
   Position position = {0.0, 0.0, 0.0};   ///< m, world
   Quat rotation = {0.0, 0.0, 0.0, 1.0};  ///< local to world
   Real distance_max = 16.0;              ///< search distance between the surfaces, m, [0, 2^14]
-  QueryFilter filter = {};               ///< the bodies that it tests
+  QueryFilter filter = {};               ///< the bodies that the query tests
   bool all = false;                      ///< true: find every body within `distance_max`; false: only the nearest
 };
 
@@ -121,8 +121,8 @@ Status query_cast(const World& world, const CastQuery& query, QueryHits hits, Qu
 /// closest_points().
 Status query_overlap(const World& world, const OverlapQuery& query, QueryHits hits, QueryReport& report);
 /// Finds the bodies whose bounds overlap the box, in slot order. Precision: the error of a body's bounds is at most
-/// 2^-28 of its unit of length, the least power of two, m, above its bounding radius, plus half the resolution of a
-/// position.
+/// 2^-28 u plus half the resolution of a position. Here u is the least power of two, m, above the body's bounding
+/// radius.
 Status query_bounds(const World& world, const BoundsQuery& query, QueryHits hits, QueryReport& report);
 /// Finds the bodies that are nearest to the shape, within the search distance. Precision: as closest_points().
 Status query_closest(const World& world, const ClosestQuery& query, QueryHits hits, QueryReport& report);

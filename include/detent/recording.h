@@ -4,9 +4,10 @@
 #include <detent/world.h>
 
 /// @file
-/// Recording and replay. A recording is a stream of small chunks, each with a checksum. They hold a seed snapshot,
-/// every call that changes the world, and digests. Format: docs/recording.md. Recorder and Player allocate nothing;
-/// each uses only the caller's buffer. Only Player::go_to calls Source::seek; all other calls read and write in order.
+/// Recording and replay. A recording is a stream of small chunks, each with a checksum. The chunks hold a snapshot of
+/// the initial state (the seed), every call that changes the world, and digests. Format: docs/recording.md. Recorder
+/// and Player allocate nothing; each uses only the caller's buffer. Only Player::go_to calls Source::seek; all other
+/// calls read and write in order.
 ///
 /// Threads: only one thread at a time may use a Recorder or Player, or the world on which it works.
 namespace detent {
@@ -20,8 +21,8 @@ inline constexpr uint32_t k_recording_buffer_bytes = 544;
 /// What a trace contains. Stored in recordings: a value is never reused.
 enum class TraceLevel : uint32_t {
   digests = 0,  ///< no trace; the recording has only the digests of RecordingDef::digest_interval
-  stages = 1,   ///< in the traced ticks also a digest of each body, contact and joint after each stage of the step
-  full = 2,     ///< in the traced ticks also the complete bodies, contacts and joints after each stage of the step
+  stages = 1,   ///< for each traced tick, after each stage of the step: a digest of each body, contact and joint
+  full = 2,     ///< for each traced tick, after each stage of the step: the complete bodies, contacts and joints
 };
 
 /// The ticks that a recording traces. The number of a tick is its StepReport::tick.
@@ -63,8 +64,8 @@ struct RecordingDef {
 struct RecordingInfo {
   uint32_t format_version = 0;                   ///< k_recording_format_version of the recorder
   uint32_t simulation_version = 0;               ///< k_simulation_version of the recorder
-  Config config = k_config;                      ///< of the recorded world
-  Capacity capacity = {};                        ///< of the recorded world; a replay needs a world of this capacity
+  Config config = k_config;                      ///< math configuration of the recorded world
+  Capacity capacity = {};                        ///< capacity of the recorded world, which a replay needs, too
   TraceLevel trace_level = TraceLevel::digests;  ///< TraceDef::level; `digests` without a trace
   uint32_t digest_interval = 0;                  ///< RecordingDef::digest_interval
   uint64_t tick = 0;                             ///< ticks that the world had completed when the recording began
@@ -266,7 +267,7 @@ class Player {
   /// The header, after `open` has read it.
   const RecordingInfo& info() const { return info_; }
 
-  /// Loads the seed into a world that was created with `info().capacity`.
+  /// Loads the seed, the recorded initial state, into a world that was created with `info().capacity`.
   /// Errors: bad_argument (not opened, or started already) and capacity_differs, which leave the world unchanged; those
   /// of `load`, truncated and sink_failed, which leave the world empty.
   Status start(World& world);

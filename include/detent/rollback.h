@@ -162,13 +162,13 @@ struct RollbackReport {
 /// A checksum of the state after `tick` ticks: of the world, as checksum32(), and of the GameState's bytes.
 struct TickChecksum {
   uint64_t tick = 0;      ///< ticks completed
-  uint32_t checksum = 0;  ///< of the state after these ticks
+  uint32_t checksum = 0;  ///< checksum of the state after these ticks
 };
 
 /// The first compared tick after which another player's state differs from this machine's.
 struct Desync {
   bool found = false;   ///< whether there is such a tick
-  uint64_t tick = 0;    ///< ticks completed
+  uint64_t tick = 0;    ///< ticks completed in the first compared state that differs
   uint32_t player = 0;  ///< the player whose state differs; the first if there are several
   uint32_t own = 0;     ///< this machine's checksum
   uint32_t theirs = 0;  ///< the checksum of `player`
@@ -295,7 +295,7 @@ inline constexpr uint32_t k_sparse_control_bytes = 1024, k_tick_head_bytes = 768
 struct SparseLayout {
   uint32_t images, image_bytes, records, record_bytes;
   uint32_t reach, movers, solved, part_inside, part_visible, contact_events, joint_events, sensor_events,
-      body_events;  // within a record
+      body_events;  // this line and the line above: offsets from the start of a record
   uint32_t boxes, reach_now, units, list, sets, joint_sets;
   uint64_t bytes;
 };
@@ -392,7 +392,7 @@ struct SyncTestDef {
 
 /// The result of sync_test().
 struct SyncTestReport {
-  uint64_t tick = 0;    ///< digest_differs: ticks completed in the first state that differs
+  uint64_t tick = 0;    ///< after digest_differs: ticks completed in the first state that differs
   uint64_t first = 0;   ///< digest of this state when the tick was simulated first
   uint64_t second = 0;  ///< digest of this state when the tick was repeated
 };

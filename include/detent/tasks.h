@@ -40,7 +40,7 @@ struct Tasks {
   /// more threads takes longer than they save. 0 means 96. 1 is for tests: loops then have as many parts as possible,
   /// at most 64.
   uint32_t least = 0;
-  const TaskProbe* probe = nullptr;  ///< see TaskProbe
+  const TaskProbe* probe = nullptr;  ///< watches how the threads share loops; may be null
 };
 
 }  // namespace DETENT_NAMESPACE

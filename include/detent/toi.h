@@ -9,9 +9,9 @@ inline namespace DETENT_NAMESPACE {
 
 /// The motion of a body in a step, at constant velocity and constant angular velocity, world axes.
 struct Motion {
-  Pose start = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};  ///< at the beginning of the step
-  Vec3<Real> displacement = {};                          ///< in the whole step, m; each component within 2^14
-  Vec3<Real> rotation_vector = {};                       ///< in the whole step, rad; length at most 2^16
+  Pose start = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};  ///< pose at the beginning of the step
+  Vec3<Real> displacement = {};     ///< displacement in the whole step, m; each component within 2^14
+  Vec3<Real> rotation_vector = {};  ///< rotation in the whole step, rad; length at most 2^16
 };
 
 /// Whether two moving shapes collide in a step.
@@ -27,14 +27,14 @@ struct TimeOfImpact {
   /// The time as a fraction of the step. Before it the shapes do not touch, unless they touch at the start. 1 if the
   /// outcome is `clear`.
   Fraction time = 0.0;
-  Vec3<Unit> normal = {};  ///< at `time`, from A to B, world axes; zero if the cores touch at the start
-  Vec3<Real> point = {};   ///< of a hit, on A's surface, m, from A's position at `time`, world axes
-  uint32_t gjk_calls = 0;  ///< calls of GJK, without a last call that only confirms the hit in one iteration
+  Vec3<Unit> normal = {};  ///< normal at `time`, from A to B, world axes; zero if the cores (Convex) touch at the start
+  Vec3<Real> point = {};   ///< of a hit: the point on A's surface, m, from A's position at `time`, world axes
+  uint32_t gjk_calls = 0;  ///< number of GJK calls; a last call that confirms the hit in one iteration does not count
   uint32_t passes = 0;     ///< number of time intervals tested
 };
 
-/// The largest gap at the time of a hit, as a fraction of the larger core diameter. The gap can exceed this by the
-/// rounding errors in SPEC.md.
+/// The largest gap at the time of a hit, as a fraction of the larger core diameter. A core is a shape without the ball
+/// that rounds it (Convex). The gap can exceed this limit by the rounding errors in SPEC.md.
 inline constexpr double k_toi_tolerance = 1e-6;
 
 /// Computes when the distance of two moving shapes first is within the tolerance.

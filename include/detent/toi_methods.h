@@ -11,24 +11,26 @@ inline namespace DETENT_NAMESPACE {
 /// the time along certified separating axes. They differ in how far they advance the time along one axis. The other
 /// methods are from the literature, for comparison.
 enum class ToiMethod {
-  /// Coumans' Algorithm 1: advances once along each axis n. It bounds the approach speed along n by
+  /// Coumans' Algorithm 1: advances the time once for each axis n. It bounds the approach speed along n by
   /// n.v + |wA| rA + |wB| rB. Here v is the relative velocity, wA and wB are the angular velocities, and rA and rB are
   /// the radii of the cores.
   paper,
   /// As `paper`, but with the smaller bound n.v + |n x wA| rA + |n x wB| rB.
   first_order,
-  /// Advances along an axis, which is fixed in the world, as long as it separates the shapes. Each advance follows from
-  /// a concave lower bound of the separation as a function of time.
+  /// Advances the time along an axis, which is fixed in the world, as long as this axis separates the shapes. Each
+  /// advance follows from a concave lower bound of the separation as a function of time.
   second_order,
-  corotating,  ///< as second_order, but the axis rotates with the body that has the face or edge
+  corotating,  ///< as second_order, but the axis rotates with the body whose face or edge determines it
   /// As constant_angular_velocity, but moves both bodies in the world frame. The other methods move B relative to A.
   /// Both formulations are from Coumans.
   world_space,
   /// As corotating, but an axis that belongs to no face (between vertices, edges or rims) rotates so that it also
   /// separates these features at the time of contact.
   constant_angular_velocity,
-  mirtich,        ///< advances until the bounds of both motions add up to the distance of the shapes
-  baraff,         ///< finds the root of the separation along a witness axis; may miss a contact
+  /// Advances the time until the bounds of both bodies' displacements along the normal add up to the gap between the
+  /// shapes.
+  mirtich,
+  baraff,         ///< finds the root of the separation along an axis that two features determine; may miss a contact
   feature_pairs,  ///< polytopes: finds the first contact of all pairs of features
   redon,  ///< polytopes: as feature_pairs, but for another motion: the screw motion from the start pose to the end pose
   /// Polytopes: as feature_pairs, but for another motion: rotation by normalised lerp. Finds roots numerically; may

@@ -20,14 +20,14 @@ inline namespace DETENT_NAMESPACE {
 
 /// How many objects of each kind a world can hold, at most 2^20 of each. A world's capacity never changes.
 struct Capacity {
-  uint32_t bodies = 0;    ///< at least 1
-  uint32_t contacts = 0;  ///< one for a pair of convex bodies, up to 16 for a pair with a terrain or compound
-  uint32_t assets = 0;    ///< assets that can be bound
+  uint32_t bodies = 0;    ///< number of bodies, at least 1
+  uint32_t contacts = 0;  ///< a pair of convex bodies needs one, a pair with a terrain or compound up to 16
+  uint32_t assets = 0;    ///< number of assets that can be bound
   /// Whether contact points can be recycled (WorldDef::contact_recycle_distance). This takes 160 bytes for each contact
   /// of the capacity (f64: 272).
   bool manifolds = true;
-  uint32_t joints = 0;  ///< joints
-  uint32_t sensed = 0;  ///< pairs of a sensor and a body within it; 0: no sensors
+  uint32_t joints = 0;  ///< number of joints
+  uint32_t sensed = 0;  ///< number of pairs of a sensor and a body within it; 0: no sensors
   /// Equal in every member.
   friend constexpr bool operator==(Capacity a, Capacity b) {
     return a.bodies == b.bodies && a.contacts == b.contacts && a.assets == b.assets && a.manifolds == b.manifolds &&
@@ -179,7 +179,7 @@ struct ContactReport {
   /// and pairs that have no contact because an asset's bytes are missing.
   uint32_t capped = 0;
   uint32_t sweeps_saved = 0;  ///< solver iterations skipped because an island converged (WorldDef::convergence)
-  uint64_t substeps = 0;      ///< sum over all contacts of their islands' substeps: measures the work of the solver
+  uint64_t substeps = 0;      ///< work of the solver: sum, over all contacts, of the substeps of the contact's island
   /// Contacts that found no colour, and are therefore solved last in their island. A colour is a set of contacts that
   /// share no dynamic body. A contact finds no colour if the other contacts of its two bodies use all 63 colours.
   uint32_t colour_overflows = 0;
@@ -189,23 +189,23 @@ struct ContactReport {
 struct JointReport {
   uint32_t count = 0;      ///< joints with at least one awake body
   uint32_t broken = 0;     ///< joints that broke and were removed
-  uint32_t undecided = 0;  ///< joint solves that gave up before the state of every limit and drive was decided
+  uint32_t undecided = 0;  ///< joint solves that stopped before the state of every limit, motor and friction was found
 };
 
 /// Continuous collision in one step.
 struct CcdReport {
   uint32_t impacts = 0;        ///< impacts within the tick that changed how bodies move
-  uint32_t undecided = 0;      ///< times of impact of which only a lower bound is known, or that could not be computed
+  uint32_t undecided = 0;      ///< searches for a time of impact that stopped early, or that were impossible
   uint32_t overlaps_left = 0;  ///< pairs that overlap too deeply for continuous collision
   /// Bodies that stopped before the end of the tick. Reasons: too many impacts (docs/continuous_collision.md), a full
   /// impact pool, or an overlap that is too deep. They stay at their last safe pose until the tick ends.
   uint32_t bodies_stopped = 0;
   Real lost_time = 0.0;  ///< sum over the stopped bodies: the fraction of the tick for which the body stood still
-  uint32_t tests = 0;    ///< times of impact computed
+  uint32_t tests = 0;    ///< number of times of impact that were computed
   /// Pairs not tested for impact because they are too slow to collide in the tick. After an impact of one of its
   /// bodies, a pair can count again, here and in `kept_apart`.
   uint32_t skipped = 0;
-  uint32_t kept_apart = 0;  ///< pairs not tested for impact because their contacts keep them apart
+  uint32_t kept_apart = 0;  ///< pairs not tested for impact because the solver's contacts already stop the bodies
 };
 
 /// What one step lost: entries for which a pool had no room, and sensor tests left undecided.
@@ -394,14 +394,14 @@ Status set_settings(World& world, const WorldDef& def);
 /// The largest number of entries that any recorded step needed in each pool of a world. All 0 before the first step.
 struct CapacityUse {
   uint32_t bodies = 0;    ///< bodies in the world
-  uint32_t contacts = 0;  ///< contacts, kept (those of sleeping bodies included) and dropped
-  /// Pairs with overlapping bounds, kept and dropped; the pool holds 2 x Capacity::contacts.
+  uint32_t contacts = 0;  ///< contacts kept (those of sleeping bodies included) and contacts dropped
+  /// Pairs with overlapping bounds, kept and dropped together; the pool holds 2 x Capacity::contacts.
   uint32_t pairs = 0;
-  /// Pairs of continuous collision, kept and dropped, in steps that dropped such pairs; 0 if no step dropped any. The
-  /// pool holds Capacity::contacts.
+  /// Pairs of continuous collision, kept and dropped together. Only steps that dropped such pairs count; 0 if no step
+  /// did. The pool holds Capacity::contacts.
   uint32_t impacts = 0;
   uint32_t joints = 0;      ///< joints in the world
-  uint32_t sensed = 0;      ///< bodies within sensors, kept and dropped
+  uint32_t sensed = 0;      ///< bodies within sensors, kept and dropped together
   uint64_t steps_full = 0;  ///< steps in which a pool had no room
 };
 

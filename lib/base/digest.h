@@ -3,9 +3,9 @@
 
 #include "base/bytes.h"
 
-/// The arithmetic of the digest. A step adds a word to the running value. For a given word, it is a bijection of the
-/// running value; for a given running value, it is a bijection of the word. Therefore a change of a single word always
-/// changes the result (SPEC.md, "Digest").
+/// The arithmetic of the digest. digest_step() adds a word to the running value. For a given word, its result is a
+/// bijection of the running value; for a given running value, its result is a bijection of the word. Therefore a change
+/// of a single word always changes the result (SPEC.md, "Digest").
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

@@ -10,8 +10,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// While a FloatEnvironment exists, the floating-point unit rounds to nearest and keeps denormals. Its destructor
-/// restores the caller's settings. In f32 and f64, every public call that computes creates one. The class is empty in
-/// the fixed-point configurations, and on targets without such settings.
+/// restores the caller's settings. In f32 and f64, every public call that computes creates a FloatEnvironment. The
+/// class is empty in the fixed-point configurations, and on targets without such settings.
 #if DETENT_FIXED || defined(__wasm__)
 #define DETENT_FLOAT_CONTROL 0
 #elif defined(__x86_64__) || defined(__i386__)

@@ -34,7 +34,7 @@ class Team {
   Team& operator=(const Team&) = delete;
 
   /// Calls work() once, on one of the threads. The other threads help with the shared loops of work(). A helping thread
-  /// that finds no loop for a while leaves.
+  /// leaves if it finds no loop for a while.
   template <class Work>
   void run(const Work& work) {
     work_ = [](const void* of) { (*static_cast<const Work*>(of))(); };
@@ -69,9 +69,9 @@ class Team {
     for (uint32_t pauses = 0; load(unfinished_) != 0; ++pauses) pause(pauses);
     if (probe != nullptr && probe->loop_ends != nullptr) probe->loop_ends(probe->context);
   }
-  /// The number of elements up to which a loop is not shared.
+  /// A loop with at most this number of elements is not shared: it runs on one thread.
   uint32_t few(uint32_t grain) const { return tasks_.least == 1 ? 0 : grain; }
-  /// The threads share the loops of an island that has at least this many bodies or contacts.
+  /// The least number of bodies or of contacts of an island whose loops the threads share.
   uint32_t many() const { return tasks_.least == 1 ? 4 : least_of(tasks_); }
 
   /// Adds `value` to `sum`, to which other threads may add at the same time. Returns `sum` before the addition.
@@ -91,8 +91,8 @@ class Team {
   static constexpr uint32_t k_waiting = 0, k_begun = 1, k_ended = 2;
   static constexpr uint32_t k_chunks_max = 64, k_chunk_codes = 128;
   static constexpr uint32_t k_loops_max = UINT32_MAX / k_chunk_codes - 1;
-  /// A waiting thread calls Tasks::wait from k_pauses pauses on. A helper that has found no loop for k_idle_pauses
-  /// pauses leaves.
+  /// A thread that waits calls Tasks::wait in every pause after the first k_pauses pauses. A helper leaves if it has
+  /// found no loop for k_idle_pauses pauses.
   static constexpr uint32_t k_pauses = 2000, k_idle_pauses = 20000;
 
   static uint32_t load(const uint32_t& from) { return __atomic_load_n(&from, __ATOMIC_ACQUIRE); }
@@ -132,8 +132,8 @@ class Team {
       pauses = 0;
     }
   }
-  /// Runs the chunks of a loop that no other thread has taken. Each thread begins at a chunk of its own, which is the
-  /// same in every loop with this number of chunks, so that its cache keeps the data.
+  /// Runs the chunks of a loop that no other thread has taken. Each thread begins at a chunk of its own. This first
+  /// chunk is the same in every loop with the same number of chunks, so that the thread's cache keeps the data.
   void take_chunks(uint32_t loop, uint32_t thread) {
     const uint32_t chunks = loop % k_chunk_codes;
     const TaskProbe* const probe = tasks_.probe;
@@ -166,8 +166,8 @@ class Team {
   void (*work_)(const void* work) = nullptr;
   const void* of_work_ = nullptr;
   uint32_t state_ = k_waiting, locked_ = 0, helpers_ = 0;
-  // The present loop: its number times k_chunk_codes plus its number of chunks. Then the elements and the body of the
-  // loop.
+  // The present loop. `loop_`: the number of the loop times k_chunk_codes, plus its number of chunks. Then its number
+  // of elements, the elements per chunk, and the body of the loop.
   alignas(64) uint32_t loop_ = 0;
   uint32_t count_ = 0, grain_ = 1;
   void (*chunk_)(const void* body, uint32_t first, uint32_t last) = nullptr;

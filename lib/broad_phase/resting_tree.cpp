@@ -69,7 +69,8 @@ void RestingTree::make_empty() const {
   for (uint32_t& parent : parents) parent = 0;
 }
 
-/// Replaces the child link `before` of a node by `after`. `parent`: the node, encoded as in a parent field.
+/// Replaces the child link `before` of a node by `after`. `parent`: the node, as a parent field encodes it
+/// (k_above_root: replaces the link to the root).
 void RestingTree::set_child(uint32_t parent, uint32_t before, uint32_t after) const {
   if (parent == k_above_root) {
     root.link = after;

@@ -70,8 +70,8 @@ struct RestingTree {
   }
 
  private:
-  // Values of a parent field: 0 if not in the tree; k_above_root if there is no parent; else the index of the parent
-  // node plus k_first_parent.
+  // Values of a parent field: 0 for the leaf of a body that is not in the tree; k_above_root for the root; else the
+  // index of the parent node plus k_first_parent.
   static constexpr uint32_t k_above_root = 1, k_first_parent = 2;
 
   // A link refers to a node or a leaf; 0 refers to nothing.

@@ -8,7 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A *grain* is four units of integer_from(), so that the difference of two coordinates in grains fits 64 bits.
+/// A *grain* is four units of integer_from(), so that the difference of two coordinates in grains fits in 64 bits.
 constexpr int k_grain_steps_bits = 2;
 /// A grain is 2^k_grain_bits units of 2^-46 m.
 constexpr int k_grain_bits = k_metre_bits - (k_coord_bits - k_grain_steps_bits);
@@ -67,7 +67,8 @@ SweptBox::Place SweptBox::place_of(const Bounds& bounds) const {
   int64_t low[3], high[3], longest = 0;
   DETENT_UNROLL
   for (int i = 0; i < 3; ++i) {
-    // A margin of two grains covers the rounding of the centre, the bounds and the positions.
+    // A margin of two grains (8 units of integer_from()) covers the rounding of the centre, the bounds and the
+    // positions.
     low[i] = (grains_of(bounds.lower.*k_axes[i]) - centre_[i] - 2) >> grain_shift_;
     high[i] = ((grains_of(bounds.upper.*k_axes[i]) - centre_[i] + 3) >> grain_shift_) + 1;
     const int64_t side = high[i] - low[i];
@@ -122,8 +123,8 @@ Fraction SweptBox::entry(const Place& place) const {
 }
 
 bool SweptBox::is_near(const Place& place, int64_t distance_max) const {
-  // The term distance_max 2^-22 covers the part of a distance's error that is proportional to the distance of the
-  // centres.
+  // The error of a distance has a part that is proportional to the distance of the centres. The term distance_max 2^-22
+  // covers this part.
   const int64_t cells = rounded_up(distance_max + (distance_max >> 22), cell_bits_) + 1;
   for (int i = 0; i < 3; ++i) {
     if (place.low[i] > cells || place.high[i] < -cells) return false;

@@ -13,11 +13,12 @@ inline bool is_earlier(const ImpactPair& a, const ImpactPair& b) {
 }
 
 #if DETENT_TASKS
-/// The earliest event of each block of 16 entries in `impacts`, in spare memory. After an event only the blocks whose
-/// entries have changed are searched again.
+/// Finds the earliest event among the entries of ImpactStage::impacts. Stores, in spare memory, the earliest event of
+/// each 16 successive entries. After an event, only those groups of 16 whose entries have changed are searched again.
 class EventHeads {
  public:
-  /// Takes memory for the blocks of `entries` entries. If there is too little memory, is_made() is false afterwards.
+  /// Takes the memory that is needed for `entries` entries. If there is too little memory, is_made() is false
+  /// afterwards.
   void make(uint32_t entries, SpareMemory& spare) {
     heads_ = spare.take<Head>((entries + k_block - 1) / k_block);
     for (Head& head : heads_) head.entry = k_stale;

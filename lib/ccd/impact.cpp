@@ -12,7 +12,8 @@ namespace {
 constexpr uint32_t k_many_entries = 64;
 #endif
 
-/// The pair with the earliest event; of several, the one with the lowest key; null if no pair has an event.
+/// The pair with the earliest event; among events at the same time, the pair with the lowest key; null if no pair has
+/// an event.
 ImpactPair* next(ImpactStage& stage) {
 #if DETENT_TASKS
   if (stage.heads.is_made())
@@ -28,7 +29,7 @@ ImpactPair* next(ImpactStage& stage) {
 }
 
 /// The shrink depth, m, for a pair that has collided at a seam: 1/64 of the extent or twice the penetration of resting
-/// bodies, whichever is more, but at most that of a pair in contact.
+/// bodies, whichever is more, but at most the shrink depth of a pair that is in contact without overlap.
 Real seam_shrink_depth(const ImpactStage& stage, uint64_t key) {
   const Real extent = stage.extent_of(key);
   return min(max(scale_by_power(extent, -6), scale_by_power(stage.settings.sunk, 1)),

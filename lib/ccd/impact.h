@@ -18,10 +18,11 @@
 /// computed from the velocities in the bodies' state, and changes those velocities. Therefore an approach that the
 /// solver has already resolved is not resolved again. Each impulse acts on both bodies with opposite sign.
 ///
-/// If the bodies of a pair still touch after their impact, the pair is in contact for the rest of the tick. Its
-/// shrunken cores are then tested, at increasing shrink depths (impact_pair.h), so that the bodies can slide on. A body
-/// stops until the end of the tick if it reaches k_impacts_max impacts, or if the list has no room for its next impact.
-/// It then stays at its last pose that is known to be free of collisions. The time that it loses is reported.
+/// If the bodies of a pair still touch after their impact, the pair is in contact for the rest of the tick. It is then
+/// tested with shrunken cores, which are its shapes made smaller by increasing shrink depths (impact_pair.h), so that
+/// the bodies can slide on. A body stops until the end of the tick if it reaches k_impacts_max impacts, or if the list
+/// of impacts has no room for its next impact. It then stays at its last pose that is known to be free of collisions.
+/// The time that it loses is reported.
 ///
 /// The work of a tick has a budget (k_impact_work_times). Once the budget is spent, pairs are tested with cores that
 /// are shrunk by an eighth of the smaller body's smallest diameter. Shallower collisions are left to the contacts of
@@ -37,14 +38,14 @@ inline constexpr uint32_t k_impacts_max = 32;  ///< limit of the impacts of a bo
 ///
 /// where `tests`, `skipped` and `kept_apart` are the counts in ImpactReport after the first test of all pairs.
 inline constexpr uint32_t k_impacts_max_spent = 16, k_impact_work_times = 8, k_impact_work_min = 768;
-/// A jointed body's sweep is marked with k_mark_jointed times the number of the body's island. These numbers begin at
-/// 1. All other marks are less than k_mark_jointed.
+/// BodySweep::marks of a jointed body contains k_mark_jointed times the number of the body's island, counted from 1.
+/// All other marks are bits below k_mark_jointed.
 inline constexpr uint32_t k_mark_jointed = 128;
 
 /// What a step used of the pools and budgets of continuous collision, which all islands share.
 struct ImpactUse {
   uint32_t entries = 0;  ///< entries in the pool of impacts
-  uint32_t work = 0;     ///< units of the budget of work
+  uint32_t work = 0;     ///< units of work that were done
   uint32_t budget = 0;   ///< the budget of work without k_impact_work_min
 
   bool is_spent() const { return work >= k_impact_work_min + budget; }
@@ -59,13 +60,13 @@ enum class ImpactOrder : uint8_t {
   optimistic,    ///< in groups of bodies that first impacts connect
 };
 
-/// What Time Warp did (time_warp.cpp).
+/// What Time Warp did: it processes impacts in groups of bodies in parallel, and rolls groups back (time_warp.cpp).
 struct WarpCount {
   uint32_t ticks = 0;         ///< ticks for which groups were tried
   uint32_t speculations = 0;  ///< runs of groups
   uint32_t rollbacks = 0;     ///< runs whose result was discarded
   uint32_t rounds = 0;
-  uint32_t returns = 0;  ///< ticks that were processed in the global order after all
+  uint32_t returns = 0;  ///< ticks that were processed in the order of time after all (ImpactOrder::global)
 };
 #endif
 
@@ -135,12 +136,12 @@ struct ImpactBodies {
 
 /// The pairs and contacts that earlier stages found.
 struct ImpactPairs {
-  /// All pairs that may touch while both bodies stay within their bounds, ascending.
+  /// The keys of all pairs that may touch while both bodies stay within their bounds, ascending.
   Span<const uint64_t> pairs;
   /// The contacts that had points at the start of the tick, ascending by pair.
   Span<const ContactWork> contacts;
   bool complete;                        ///< true if no pair and no contact was dropped
-  Span<const uint64_t> disabled_pairs;  ///< disabled pairs, ascending
+  Span<const uint64_t> disabled_pairs;  ///< keys of the disabled pairs, ascending
 };
 
 /// Finds and resolves the impacts of a tick. `impacts` is work space. `hits` is filled in the order of the impacts.
@@ -148,7 +149,7 @@ ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& 
                                 const ImpactPairs& pairs, const ImpactBodies& bodies, Span<ImpactPair> impacts,
                                 Span<ImpactHit> hits, ImpactProbe* probe = nullptr);
 
-/// Entry of the feature table.
+/// FeatureTable points to these functions if the feature is linked.
 struct ContinuousOps {
   decltype(&advance_to_impacts) advance;
 };

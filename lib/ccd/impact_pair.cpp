@@ -14,7 +14,8 @@ namespace {
 
 ShapeType shape_type(const BodyProperties& properties) { return static_cast<ShapeType>(properties.shape); }
 
-/// Converts `depth`, 2^-46 m, to units of 2^(exponent - 30) m, rounded up. Returns INT32_MAX if the result is larger.
+/// Converts `depth` from units of 2^-46 m to units of 2^(exponent - 30) m, rounded up. Returns INT32_MAX if the result
+/// is larger.
 int32_t depth_in_units(int64_t depth, int exponent) {
   if (depth >> (k_metre_bits + exponent) != 0) return INT32_MAX;
   return static_cast<int32_t>(shift_64(depth, 30 - k_metre_bits - exponent)) + 1;
@@ -22,9 +23,9 @@ int32_t depth_in_units(int64_t depth, int exponent) {
 
 int32_t less_depth(int32_t size, int32_t depth, int32_t least) { return size - least > depth ? size - depth : least; }
 
-/// Makes the shape smaller by `depth`, 2^-46 m, on all sides. This is not possible for a cone or hull. The smaller one
-/// of a cone's radius and half length becomes smaller by `depth`, down to a quarter, and the other in proportion. A
-/// hull is halved in size `halvings` times.
+/// Makes the shape smaller by `depth`, 2^-46 m, on all sides. A cone or hull cannot be made smaller in this way. The
+/// smaller one of a cone's radius and half length becomes smaller by `depth`, down to a quarter of its value; the other
+/// changes in proportion. A hull is halved in size `halvings` times.
 void shrink(int64_t depth, int halvings, Convex& convex) {
   const ShapeType type = convex.type;
   if (type == ShapeType::hull) {

@@ -21,14 +21,14 @@ inline namespace DETENT_NAMESPACE {
 /// Up to 1/32 of the extent, each depth is twice the previous one. Beyond it, each depth is the previous one plus 1/32
 /// of the extent.
 Real next_shrink_depth(Real extent, Real shrink_depth);
-/// The shrink depth, m, for a pair that is in contact, `depth` deep, at the start of the tick: 1/8 of the extent, or
-/// half of `depth` plus 1/64 of the extent, whichever is more. Both bodies are shrunk by it, so in the second case the
-/// cores touch when the pair has sunk 1/32 of the extent deeper.
+/// The shrink depth, m, for a pair that overlaps by `depth`, m, at the start of the tick: 1/8 of the extent, or half of
+/// `depth` plus 1/64 of the extent, whichever is more. Both bodies are shrunk by it, so in the second case the cores
+/// touch when the pair has sunk 1/32 of the extent deeper.
 Real contact_shrink_depth(Real extent, Real depth);
 /// The largest shrink depth, m: extent / 2. A pair whose cores still overlap at this depth is not tested.
 Real last_shrink_depth(Real extent);
 
-/// A body and its sweep, for the tests of this stage.
+/// A body and its sweep, as continuous collision tests them.
 struct SweptBody {
   const BodyProperties& properties;
   const BodyPose& pose;  ///< at the time sweep.from
@@ -53,8 +53,8 @@ bool is_parting(const SweptBody& a, const SweptBody& b, Fraction time, const Tim
 /// The body's pose at `time` and the rest of its sweep after `time`, in the form that time_of_impact() takes.
 Motion motion_from(const SweptBody& body, Fraction time);
 
-/// An upper bound, m, of how far a rotation about the centre moves any point of the body's surface. For a rotating
-/// half-space: a quarter of the range of a Real.
+/// An upper bound, m, of how far the rotation by `rotation_vector`, rad, about the body's centre moves any point of its
+/// surface. For a half-space that rotates, the result is a quarter of the largest Real.
 Real swing_bound(const BodyProperties& properties, const Vec3<Real>& rotation_vector);
 
 /// An upper bound, m, of how far any point of the body's surface moves in the part of the tick after `time`; see

@@ -185,7 +185,7 @@ uint32_t add_to_sweep(const BodyProperties& properties, const Quat& rotation, co
   const auto angle = [&](Real value) { return angle_of(value * tick_time, properties.size_exponent, turns_clamped); };
   sweep.displacement += (after.linear_velocity - before.linear_velocity) * tick_time;
   sweep.rotation_vector += {angle(angular_velocity.x), angle(angular_velocity.y), angle(angular_velocity.z)};
-  // The limits of a sweep in the state, m and rad. time_of_impact() accepts values twice as large.
+  // The largest rotation, rad, and displacement, m, of a sweep. time_of_impact() accepts values twice as large.
   constexpr Real k_sweep_rotation_max = 32768.0, k_sweep_displacement_max = 8192.0;
   return clamp_vector(sweep.displacement, k_sweep_displacement_max) +
          clamp_vector(sweep.rotation_vector, k_sweep_rotation_max) + (turns_clamped ? 1 : 0);

@@ -14,7 +14,7 @@ inline namespace DETENT_NAMESPACE {
 uint32_t clamp_rotation(const BodyProperties& properties, Real tick_time, BodySweep& sweep);
 
 /// The velocity and angular momentum of a body that moves along its sweep. The `angular_momentum` of a kinematic body
-/// is its angular velocity, as in its state.
+/// is its angular velocity, as in its state. `tick_rate`: ticks per second.
 BodyMotion motion_of_sweep(const BodyProperties& properties, const Quat& rotation, const BodySweep& sweep,
                            Scaled tick_rate);
 
@@ -45,9 +45,9 @@ struct ImpactBody {
 
 /// Separates the bodies at the points of the contact. Points that approach at least at the speed `contact.rebound_min`
 /// rebound by Newton's law of impact along the normal. Friction follows Coulomb's law. The impulses are computed by a
-/// limited number of sweeps over the points, so that each point separates at `parting`, m/s, or faster. `approach`
-/// becomes the largest closing speed before the impulse, m/s. Returns false, with the motions unchanged, if no point
-/// closes faster than `least`, m/s.
+/// limited number of passes over the `count` points, so that each point separates at `parting`, m/s, or faster.
+/// `approach` becomes the largest closing speed before the impulse, m/s. Returns false, with the motions unchanged, if
+/// no point closes faster than `least`, m/s.
 bool resolve_impact(const ContactWork& contact, uint32_t count, Real least, Real parting, const ImpactBody& a,
                     const ImpactBody& b, Real& approach);
 

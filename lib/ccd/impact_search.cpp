@@ -99,8 +99,9 @@ ImpactPair* find_impact(const ImpactStage& stage, uint64_t key) {
 
 /// A lower bound, m, of the distance that a pair without contact had at the start of the tick. The contact points of a
 /// pair in `known.pairs` were searched up to its speculative distance. The bounds of any other pair were disjoint, and
-/// bounds include the contact margin. The result is 0, because nothing is known, if pairs or contacts were dropped, or
-/// if each of the two bodies rested, or may be near a body with which it has no contact (k_mark_near).
+/// bounds include the contact margin. If pairs or contacts were dropped, nothing is known, and the result is 0. The
+/// result is also 0 if neither body has k_mark_moved without k_mark_near: each of the two was at rest, or may be near a
+/// body with which it has no contact.
 Real distance_without_contact(const ImpactStage& stage, uint64_t key) {
   const uint32_t low = pair_low(key), high = pair_high(key);
   const BodySweep &a = stage.sweep_of(low), &b = stage.sweep_of(high);
@@ -128,8 +129,8 @@ Real free_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const Contac
     clearance = k_zero;
     return k_zero;
   }
-  // A round body may be nearer than the separations of its contacts, which include the distance that is gained by
-  // sliding past.
+  // A round body may be nearer than the separations of its contacts say. They include the distance that the bodies gain
+  // in the tick because the normal rotates while they slide past each other.
   const bool round = is_curved(stage, pair_low(key)) || is_curved(stage, pair_high(key));
   if (least > scale_by_power(extent, -10)) {
     clearance = round ? k_zero : scale_by_power(least, -1);
@@ -211,10 +212,11 @@ DETENT_SHARED TickMotion motion_in_tick(const ImpactStage& stage, uint32_t slot,
   return motion;
 }
 
-/// Whether the solver keeps a pair in contact apart in this tick. A contact point that is separated at the start of the
-/// tick must not become deeper than 1/1024 of the extent; the depth of a point that penetrates must not grow by more
-/// than that. Such a pair need not be tested. `closing`: upper bound of the relative motion in the tick, m. False if
-/// `closing` is large, because parts of the shapes that are not in contact may then collide.
+/// Returns true if the solver's motion does not let the bodies of a pair in contact pass into each other in this tick;
+/// such a pair need not be tested. Each contact point must meet a condition: if it is open at the start of the tick, it
+/// becomes at most 1/1024 of the extent deep; if it overlaps at the start, it becomes at most that much deeper.
+/// `closing`: upper bound of the relative motion in the tick, m. False if `closing` is large, because parts of the
+/// shapes that are not in contact may then collide.
 bool are_kept_apart(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, const TickMotion& a,
                     const TickMotion& b, Real closing) {
   if (contacts.count == 0 || is_left_to_impact(contacts[0])) return false;
@@ -265,8 +267,8 @@ void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> con
   Real clearance = k_zero;
   const Real shrink_depth = first_shrink_depth(stage, key, contacts, clearance);
   const Fraction start = 0.0;
-  // The sum of the bounds of both motions is cheap to compute, and mostly sufficient. The bounds are valid because no
-  // body has been hit yet.
+  // The sum of both bodies' motion bounds is cheap to compute, and mostly small enough to show that the pair cannot
+  // collide. The bounds are valid because no body has been hit yet.
   const auto bound = [&](uint32_t slot) {
     return is_at_rest(stage.sweep_of(slot)) ? k_zero : stage.path_of(slot).bound;
   };
@@ -413,7 +415,8 @@ void ImpactStage::test(uint64_t key, Fraction time, Real shrink_depth, ImpactPai
   }
   if (meeting.left) {
     ++report.overlaps_left;
-    // The pair has got this deep after an impact in this tick, and does not separate: it would pass through.
+    // The bodies have got this deep after an impact in this tick, and do not separate: they would pass through each
+    // other.
     if (meeting.stuck) {
       stop(pair_low(key), time);
       stop(pair_high(key), time);

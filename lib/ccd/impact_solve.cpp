@@ -39,8 +39,10 @@ __attribute__((noinline)) void find_part_points(const ImpactStage& stage, const 
 
 /// Finds the contact points of the bodies' full shapes, not of their shrunken cores. Returns no points if the contact
 /// normal is 90 degrees or more from the normal of the impact: deep within a thin body, the direction of least
-/// penetration may lead through the body. Marks the contact as a seam if the overlap is no deeper than that of resting
-/// bodies, and either more than two points touch or the two normals enclose an angle between 60 and 120 degrees.
+/// penetration may lead through the body. The contact counts as one at a seam (the edge between two bodies with level
+/// faces) if the contact search finds it to be one. It also counts as one if the overlap is no deeper than that of
+/// resting bodies, and either more than two points touch or the two normals enclose an angle between 60 and 120
+/// degrees.
 void find_points(const ImpactStage& stage, const ImpactPair& pair, const BodyPose& pose_a, const BodyPose& pose_b,
                  ContactGeometry& geometry) {
   const BodyProperties &a = stage.bodies.properties[pair_low(pair.key)],
@@ -217,8 +219,8 @@ void hold_lighter(const ImpactStage& stage, Fraction time, uint32_t (&slots)[2])
 
 /// Separates the bodies of a pair at the given points. Returns false if the bodies do not approach there; the attempt
 /// counts as work, but changes no body. `again`: the impulse is propagated from another pair. Then an approach of at
-/// most 2^-12 of first_approach is ignored, parting_speed() is not demanded, and the impact is not counted or recorded.
-/// `holds`: see hold_lighter().
+/// most 2^-12 of the approach speed of that pair (first_approach) is ignored, the bodies need not separate at
+/// parting_speed(), and the impact is neither counted nor recorded. `holds`: see hold_lighter().
 bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geometry, const BodyPose& pose_a,
                 const BodyPose& pose_b, bool again, bool holds) {
   stage.take_work(1);
@@ -251,8 +253,8 @@ bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geo
   if (again) return true;
   stage.first_approach = approach;
   ++stage.report.impacts;
-  // `impacts` does not overflow: a body stops after k_impacts_max impacts, and a kinematic body then hits the stopped
-  // body at most once at each shrink depth.
+  // The 8-bit counter `impacts` does not overflow: a body stops after k_impacts_max impacts, and a kinematic body then
+  // hits the stopped body at most once at each shrink depth.
   static_assert(2 * k_impacts_max <= UINT8_MAX);
   ++pair.impacts;
   stage.add_hit(

@@ -14,7 +14,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-// ImpactPair::next: the next event of a pair.
+// Values of ImpactPair::next: the kind of a pair's next event.
 inline constexpr uint8_t k_next_none = 0;
 inline constexpr uint8_t k_next_impact = 1;
 /// The search for an impact stopped early: the bodies do not collide before ImpactPair::time.
@@ -30,12 +30,13 @@ inline constexpr uint32_t k_mark_left_bounds = 4;  ///< the sweep leaves the bou
 /// end.
 inline constexpr uint32_t k_mark_hit = 8;
 inline constexpr uint32_t k_mark_slept = 16;  ///< the body was asleep when the tick began
-inline constexpr uint32_t k_mark_moved = 32;  ///< the body was active when the tick began: its pairs were searched
+inline constexpr uint32_t k_mark_moved = 32;  ///< awake or moving when the tick began: pairs of this body were tested
 inline constexpr uint32_t k_mark_near = BodySweep::k_mark_near;
 static_assert(k_mark_moved < k_mark_near && k_mark_near < k_mark_jointed);
 
 #if DETENT_TASKS
-/// The counts of a report that each thread keeps for itself; their sums are the counts of the tick.
+/// The members of ImpactReport that each thread counts for itself; their sums over the threads are the counts of the
+/// tick.
 inline constexpr uint32_t ImpactReport::*k_impact_numbers[] = {
     &ImpactReport::impacts, &ImpactReport::undecided, &ImpactReport::overlaps_left, &ImpactReport::bodies_stopped,
     &ImpactReport::tests,   &ImpactReport::skipped,   &ImpactReport::kept_apart,    &ImpactReport::clamped};
@@ -52,7 +53,7 @@ struct FoundPairs {
 };
 #endif
 
-/// The state of the stage during a tick.
+/// The state of continuous collision during a tick.
 struct ImpactStage {
   const StepSettings& settings;
   const AssetTable& assets;
@@ -91,9 +92,11 @@ struct ImpactStage {
   const BitSet& candidates() const { return warp == nullptr ? bodies.candidates : warp->part.candidates; }
   /// The bodies that may have k_mark_changed.
   const BitSet& changeable() const { return warp == nullptr ? bodies.active : warp->part.own; }
-  /// Whether the body may have entries. In a group, only bodies that the group has copied have entries.
+  /// Whether the body may be part of an entry in `impacts`. In a group, only bodies that the group has copied have
+  /// entries.
   bool may_have_entries(uint32_t slot) const { return warp == nullptr || warp->body(slot) != nullptr; }
-  /// Whether a group has met a case that only the global order can handle. The group's result is then discarded.
+  /// Whether a group has met a case that must be processed in the order of time over the whole world
+  /// (ImpactOrder::global). The group's result is then discarded.
   bool gives_up() const { return warp != nullptr && warp->has_failed(); }
 #else
   static constexpr const void* found = nullptr;
@@ -107,7 +110,8 @@ struct ImpactStage {
   bool dynamic(uint32_t slot) const { return is_dynamic(bodies.properties[slot]); }
   /// Whether pairs that cannot collide are skipped.
   bool filters() const { return probe == nullptr || probe->filters; }
-  /// Subtracts `count` times of impact, or attempts to resolve an impact, from the work that is left.
+  /// Subtracts `count` units from the work that is left. A unit is one computed time of impact, or one attempt to
+  /// resolve an impact.
   void take_work(uint32_t count) { work_left -= count < work_left ? count : work_left; }
   bool is_spent() const { return work_left == 0; }
   /// Visits the entries of a dynamic body in `impacts`: pairs of the body that have a coming event, or had one in this
@@ -163,19 +167,20 @@ struct ImpactStage {
   /// (k_impact_work_times).
   void find_first();
   /// Finds when a pair collides next, and stores its next event if there is one. Stops both bodies if there is no room
-  /// for an impact, or if the pair would pass through. `shrink_depth`: the first shrink depth, m. `entry`: the pair's
-  /// entry in `impacts`, or null.
+  /// for an impact, or if they would pass through each other. `shrink_depth`: the first shrink depth, m. `entry`: the
+  /// pair's entry in `impacts`, or null.
   void test(uint64_t key, Fraction time, Real shrink_depth, ImpactPair* entry);
   /// Makes the entry of a pair in `impacts`. Returns null if there is no room.
   ImpactPair* add_entry(uint64_t key);
 #if DETENT_TASKS
-  /// Makes room for an entry of a group, and copies of its dynamic bodies. Returns false if there is no memory.
+  /// Makes room in the group for the entry of the pair `key`, and makes the group's copies of the pair's dynamic
+  /// bodies. Returns false if there is no memory.
   bool make_room_for(uint64_t key);
 #endif
-  /// Adds an entry to the lists of its dynamic bodies. `place`: its index + 1.
+  /// Adds an entry to the lists of entries of its dynamic bodies. `place`: the entry's index in `impacts` + 1.
   void link(ImpactPair& entry, uint32_t place) const;
-  /// Does the first part of find_first(), the tests of the pairs in `known`, by several threads. Returns false, and
-  /// changes nothing, if the pairs must be tested in order by one thread.
+  /// Does the first part of find_first() with several threads: tests the pairs in `known`. Returns false, and changes
+  /// nothing, if the pairs must be tested in order by one thread.
   bool find_first_shared();
 #if DETENT_TASKS
   /// Tests the new sweep of a body against another body, if their bounds overlap and they may touch.
@@ -192,7 +197,8 @@ struct ImpactStage {
 
   void add_hit(const ImpactHit& hit);
   /// Separates the bodies of a pair. The bodies must be at the time of the impact. Returns true, with both sweeps
-  /// unchanged, if the bodies collide at a seam and the shrink depth of the pair was not increased yet.
+  /// unchanged, if the bodies collide at a seam (the edge between two bodies with level faces) and the shrink depth of
+  /// the pair was not increased yet.
   bool resolve(ImpactPair& pair, bool undecided, const BodyPose& pose_a, const BodyPose& pose_b);
   /// Propagates the impulse of the pair `first` to the pairs that share a body with it and have collided in this tick,
   /// and from them back to `first`, until no pair approaches or the limit of rounds is reached. Without this, a body
@@ -202,8 +208,8 @@ struct ImpactStage {
 };
 
 #if DETENT_TASKS
-/// Processes all events in groups, with the result of ImpactStage::process_events(). Returns false, and changes no
-/// body, if the events must be processed in the global order.
+/// Processes all events in groups of bodies, with the same result as ImpactStage::process_events(). Returns false, and
+/// changes no body, if process_events() must process them.
 bool process_in_groups(ImpactStage& stage, ImpactOrder order, WarpCount& count);
 #endif
 

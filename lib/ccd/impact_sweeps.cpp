@@ -63,8 +63,8 @@ void begin_sweep(ImpactStage& stage, uint32_t slot) {
   stage.probe->segments[at] = {slot, 0, sweep.from, pose, rest.displacement, rest.rotation_vector};
 }
 
-/// Adds the segment of the body's sweep that ends at `time` to its path. `first`: whether this is the body's first
-/// segment.
+/// Adds to `path`, the body's motion so far, the segment of its sweep that ends at `time`. `first`: whether this is the
+/// body's first segment.
 void end_segment(const BodyProperties& properties, const BodySweep& sweep, Fraction time, bool first,
                  ImpactPath& path) {
   if (first) path = {k_zero_vector, k_zero_vector, k_zero};

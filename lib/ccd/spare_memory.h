@@ -5,8 +5,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 #if DETENT_TASKS
-/// Memory of the block that nothing else uses during a stage. It is taken piece by piece, by any thread, until it is
-/// spent. Nothing is given back within a tick.
+/// Memory of the world's block that nothing else uses during a stage of the step. It is taken piece by piece, by any
+/// thread, until it is spent. Nothing is given back within a tick.
 struct SpareMemory {
   Span<uint64_t> words;
   uint32_t taken = 0;  ///< words taken so far

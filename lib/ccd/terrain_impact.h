@@ -13,7 +13,7 @@ inline namespace DETENT_NAMESPACE {
 bool terrain_impact(const AssetTable& assets, const TerrainOps& code, const SweptBody& a, const SweptBody& b,
                     const Convex& convex, Fraction time, TimeOfImpact& impact);
 
-/// Entry of the feature table.
+/// FeatureTable points to these functions if the feature is linked.
 struct TerrainImpactOps {
   decltype(&terrain_impact) impact;
 };

@@ -2,16 +2,18 @@
 #include "broad_phase/bounds_integer.h"
 #include "ccd/impact_stage.h"
 
-/// Processes the impacts of a tick in groups: several groups at the same time, and each group to the end of the tick.
+/// Processes the impacts of a tick in groups of bodies. Several groups are processed at the same time, each of them to
+/// the end of the tick. The result is that of the global order, in which all impacts of the world are processed in the
+/// order of time.
 ///
 /// A group is optimistic: it takes all bodies but its own as they were when the groups started. A body becomes the
-/// group's own when the group makes an entry with it; the group then changes a copy of the body. When all groups have
-/// ended, they are compared. Two groups conflict if they have copies of the same body. They may also conflict through a
-/// body of one group and a body of the other group: each group tested its own body against the other body's state at
-/// the start, not against the state that the other body has in the global order. Therefore the tests of the two bodies
-/// are repeated with the states of the global order, if the bounds of their sweeps overlap. If a repeated test finds an
-/// event, the groups conflict. Otherwise the repeated tests only correct the counts (PairTests). Groups without a
-/// conflict have the result of the global order.
+/// group's own when the group makes an entry (an ImpactPair) with it; the group then changes a copy of the body. When
+/// all groups have ended, they are compared. Two groups conflict if they have copies of the same body. They may also
+/// conflict through a body of one group and a body of the other group: each group tested its own body against the other
+/// body's state at the start, not against the state that the other body has in the global order. Therefore the tests of
+/// the two bodies are repeated with the states of the global order, if the bounds of their sweeps overlap. If a
+/// repeated test finds an event, the groups conflict. Otherwise the repeated tests only correct the counts (PairTests).
+/// Groups without a conflict have the result of the global order.
 ///
 /// Groups that conflict are rolled back: their copies are discarded, and they are run again as one group. The number
 /// of groups falls each time.
@@ -74,8 +76,8 @@ bool ImpactStage::make_room_for(uint64_t key) {
 namespace {
 
 constexpr uint32_t k_warp_parts_max = 64;
-/// If groups still conflict after this number of rounds, the global order is used. Each round costs at most as much as
-/// the global order.
+/// If groups still conflict after this number of rounds, all impacts are processed in the order of time, without
+/// groups. Each round costs at most as much as that.
 constexpr uint32_t k_warp_rounds_max = 4;
 
 /// The bounds of all sweeps of a changed body.
@@ -111,8 +113,8 @@ class PairTests {
 
   /// Repeats the tests of the two bodies. Each test is made with the states that both bodies have, in the global order,
   /// at the time of the test. Returns true if no repeated test finds an event; `correction` then includes the changes
-  /// of the counts. Also returns false if a body was moved without a later test, or if a test of each body has the same
-  /// time.
+  /// of the counts. Also returns false if a body was moved without a later test, or if a test of one body has the same
+  /// time as a test of the other body.
   bool agree(const WarpGroup& group_a, const WarpBody& a, const WarpGroup& group_b, const WarpBody& b) {
     if ((a.moved | b.moved | a.moved_untested | b.moved_untested) != 0) return false;
     const uint32_t slots[2] = {a.slot, b.slot};
@@ -200,8 +202,8 @@ class TimeWarp {
   uint32_t leader_of(const ImpactPair& entry) {
     return leader_of(stage_.dynamic(pair_low(entry.key)) ? pair_low(entry.key) : pair_high(entry.key));
   }
-  /// Makes one group of all entries that dynamic bodies connect. Returns false if the global order is better, if a
-  /// group would have to wake a body, or if memory is short.
+  /// Makes one group of all entries that dynamic bodies connect. Returns false if groups do not pay, if a group would
+  /// have to wake a body, or if memory is short.
   bool make_groups(bool is_conservative) {
     const uint32_t slots = stage_.bodies.properties.count, entries = stage_.impact_count;
     if (!take(leaders_, slots) || !take(groups_of_, slots) || !take(next_start_, entries)) return false;
@@ -250,8 +252,8 @@ class TimeWarp {
     return take(part.places, stage_.bodies.properties.count) && take(part.own.words, words) &&
            take(part.candidates.words, words);
   }
-  /// Runs the groups in `to_run_`. Threads share the groups in `parts` parts. A part runs every group whose index, in
-  /// the order of decreasing size, is congruent to its own modulo `parts`, so the parts are about equal.
+  /// Runs the groups in `to_run_`. The groups are distributed over `parts` parts, which the threads share. In the order
+  /// of decreasing size, group number i goes to part i modulo `parts`, so the parts are about equal.
   void run_groups() {
     heap_sort(to_run_, [&](uint32_t a, uint32_t b) {
       const uint32_t size_a = groups_[a].start_count, size_b = groups_[b].start_count;
@@ -405,8 +407,8 @@ class TimeWarp {
     return to_run_.count != 0;
   }
 
-  /// Gives the bodies and the outputs of all groups to the stage. Returns false, and changes nothing, if the groups
-  /// together need more work, entries or memory than there is.
+  /// Copies the bodies and the outputs of all groups back to the stage. Returns false, and changes nothing, if the
+  /// groups together need more work, entries or memory than there is.
   bool commit() {
     uint32_t entries = 0, output_count = 0;
     uint64_t work = 0;

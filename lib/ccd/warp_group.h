@@ -3,7 +3,7 @@
 #include "ccd/spare_memory.h"
 #include "shape/bounds.h"
 
-/// The data of Time Warp (time_warp.cpp): impacts in several groups at the same time.
+/// The data of Time Warp (time_warp.cpp), which processes impacts in several groups of bodies in parallel.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -39,26 +39,27 @@ struct WarpBody : WarpSweep {
 /// An output whose order among the outputs of all groups matters: a hit, or the time that a stopped body loses.
 struct WarpOutput {
   /// The sort key among outputs with the same `hit.time`. It is the highest key of the group's events at that time, up
-  /// to and including the event with this output. In the global order, this event cannot come before the event with
-  /// that key.
+  /// to and including the event with this output. If all events are processed in the order of time, this event cannot
+  /// come before the event with that key.
   uint64_t order;
   ImpactHit hit;  ///< for a stopped body, the key is 0 and `approach` is the lost fraction of the tick
 };
 
-/// A test of a body's new sweep, by a group, against all bodies near it.
+/// A record of one test: a group tested a body's new sweep against all bodies near it.
 struct WarpTest : WarpSweep {
   Fraction time;
   uint32_t next;  ///< index + 1 of the body's next test; 0: none
 };
 
-/// A group of impacts: entries that are connected by dynamic bodies, directly or through other entries.
+/// A group of impacts: entries (pairs in ImpactStage::impacts) that are connected by dynamic bodies, directly or
+/// through other entries.
 struct WarpGroup {
   static constexpr uint32_t k_none = UINT32_MAX;
 
   uint32_t leader = 0;  ///< index of the group into which this one was merged, or its own index
-  // Its entries at the start: a list of indices in ImpactStage::impacts.
+  // The group's entries at the start: a linked list of indices in ImpactStage::impacts.
   uint32_t first_start = k_none, last_start = k_none, start_count = 0;
-  // The result of its last run. The spans may be longer than these counts.
+  // The result of the group's last run. Only the first body_count, entry_count, ... elements of the spans are used.
   Span<WarpBody> bodies;
   Span<ImpactPair> entries;
   Span<WarpOutput> outputs;
@@ -102,9 +103,9 @@ bool make_room(Span<T>& items, uint32_t used, SpareMemory& spare) {
 struct WarpRun {
   WarpGroup& group;
   const WarpPart& part;
-  const ImpactBodies& bodies;  ///< the bodies when the groups start; no group changes them
+  const ImpactBodies& bodies;  ///< the bodies as they are when the groups start; no group changes them
   SpareMemory& spare;
-  uint32_t& failed;  ///< not 0: some group met a case that only the global order can handle
+  uint32_t& failed;  ///< not 0: some group met a case that only ImpactOrder::global can handle
   Fraction time = 0.0;
   uint64_t order = 0;  ///< WarpOutput::order for outputs of the present event
 

@@ -14,8 +14,10 @@ struct ContactGeometryPoint {
   /// The vector from the centre of mass of A (`arm_a`) or of B (`arm_b`) to the point midway between the surfaces, in
   /// world axes, in the unit of length of that body. Zero if that body is a half-space.
   Vec3<Unit> arm_a, arm_b;
-  Real separation;    ///< along the normal, m; negative when overlapping
-  uint32_t feature;   ///< key of the two features that touch: distinct in a contact, constant while they touch, not 0
+  Real separation;  ///< along the normal, m; negative when overlapping
+  /// Key of the two features (vertices, edges, faces) that touch. It differs between the points of a contact, stays the
+  /// same while the features touch, and is not 0.
+  uint32_t feature;
   uint32_t part = 0;  ///< for compounds: 2^16 (child number in A) + (child number in B), both counted from 1
 };
 
@@ -23,9 +25,9 @@ struct ContactGeometryPoint {
 struct ContactMargins {
   Real distance;    ///< contact margin: the greatest separation of a contact point, m
   Real sunk = 0.0;  ///< typical penetration of resting bodies, m
-  /// If true, a body that slides over the seam between two other bodies is not stopped there (contact_seam.h): contacts
-  /// that are slivers are left out, and a contact at an edge that is level with a face, within `sunk`, gets the normal
-  /// of that face.
+  /// If true, a body that slides over the seam between two other bodies is not stopped there (contact_seam.h): slivers
+  /// (shallow contacts beside a face contact of the same shapes) are left out, and a contact at an edge that is level
+  /// with a face, within `sunk`, gets the normal of that face.
   bool smooth_seams = false;
 
   ContactMargins(Real within) : distance(within) {}
@@ -59,10 +61,10 @@ struct CollisionBody {
 
 /// Finds the contact points of two bodies with convex shapes. Points with a separation above `margin.distance`, m, are
 /// left out; the result may have no points. Pairs of spheres, capsules, unrounded boxes and half-spaces have
-/// specialised functions; all other pairs go through contact_points(). `features` must include the linked features of
-/// both shapes, and `rounding` if a shape is rounded. Precision (fixed point; tests/unit/contact): 2^-26 of the larger
-/// body's bounding diameter. Against a half-space: 2^-26 of the other body's size plus 2^-31 of its distance from the
-/// plane's origin.
+/// specialised functions; all other pairs go through contact_points(). `features` must be made with the flags
+/// (Features) of both shape types, and with `rounding` if a shape is rounded. Error in fixed point
+/// (tests/unit/contact): 2^-26 of the larger body's bounding diameter. Against a half-space: 2^-26 of the size of the
+/// other body plus 2^-31 of that body's distance from the plane's origin.
 void collide(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin, ContactGeometry& contact,
              const AssetTable& assets = {}, ManifoldReduction reduction = ManifoldReduction::projected_extremes,
              const FeatureTable& features = feature_table<Features::all>);

@@ -170,7 +170,8 @@ int edge_of(const BoxContact& contact) {
   return edge;
 }
 
-/// Whether the segment is within 2^-5 rad of the direction of the edge. For two edges of hulls the limit is the same.
+/// Whether the segment is within 2^-5 rad of the direction of the edge. The limit for two edges of hulls is the same
+/// (k_level in contact_points.cpp).
 bool is_along(const BoxAndSegment& pair, int edge) { return abs(pair.direction.v[edge]) > Unit(1.0 - 0x1p-11); }
 
 /// Whether the normal of a contact at an edge rotates as the shapes slide past each other. It does not rotate if the
@@ -181,7 +182,8 @@ __attribute__((noinline)) bool turns_at_edge(const BoxAndSegment& pair, const Bo
   return edge < 0 || is_along(pair, edge);
 }
 
-/// Sets [low, high] to the part of the segment that lies along the edge of the contact. Returns false if there is none.
+/// Sets [low, high] to the part of the segment that is at most thickness / 32 beside the touched edge. Returns false if
+/// there is none, or if the segment does not lie along the edge.
 __attribute__((noinline)) bool clip_to_edge(const BoxAndSegment& pair, const BoxContact& contact, Unit thickness,
                                             Unit& low, Unit& high) {
   const int edge = pair.half_length > Unit(0.0) ? edge_of(contact) : -1;

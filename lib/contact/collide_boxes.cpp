@@ -383,8 +383,8 @@ void collide_boxes(const PairFrame& frame, PairManifold& manifold) {
     collide_edges(frame, axis, preference, manifold);
   else
     collide_face(frame, is_a, is_a ? axis.i : axis.j, manifold);
-  // No axis separates the boxes by more than the margin. Still, two vertices may be farther apart. So if no point was
-  // found, it is not known whether the boxes are within the margin.
+  // No axis separates the boxes by more than the margin. Still, the nearest vertices may be farther apart than the
+  // margin. So if no point was found, it is not known whether the boxes are within the margin.
   manifold.near = manifold.count == 0;
 }
 

@@ -11,7 +11,8 @@ inline namespace DETENT_NAMESPACE {
 /// length is NaN, infinite, or 2^17 m or more.
 bool make_rules(const ContactMargins& margin, ManifoldReduction reduction, ContactRules& rules);
 
-/// Entry of the feature table.
+/// Entry of FeatureTable (detent/features.h): the function for pairs with a cylinder, a cone, a hull or a rounded
+/// shape.
 struct ConvexOps {
   void (*collide)(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin,
                   const AssetTable& assets, ManifoldReduction reduction, ContactGeometry& contact);

@@ -4,7 +4,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Entry of the feature table.
+/// Entry of FeatureTable (detent/features.h): the function for pairs with a half-space.
 struct HalfSpaceOps {
   void (*collide)(const CollisionBody& plane, const CollisionBody& body, Real margin, ContactGeometry& contact);
 };

@@ -189,7 +189,8 @@ void ConvexParts::place(uint32_t i, Vec64& middle, Vec64& half) const {
     return;
   }
   const ChildBox box = child_box(compound_.child(i));
-  const int shift = k_metre_bits - 31 + compound_.exponent();  // from twice a coordinate to 2^-46 m; 1 to 30
+  // The shift from twice a coordinate to 2^-46 m, between 1 and 30.
+  const int shift = k_metre_bits - 31 + compound_.exponent();
   const auto raw = [shift](int64_t twice) { return twice * (int64_t{1} << shift); };
   const Vec32 &low = box.low, &high = box.high;
   middle = {raw(int64_t{low.x} + high.x), raw(int64_t{low.y} + high.y), raw(int64_t{low.z} + high.z)};

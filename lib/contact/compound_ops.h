@@ -15,10 +15,11 @@ class ConvexParts {
   ConvexParts(const BodyProperties& properties, const AssetTable& assets);
 
   uint32_t count() const { return count_; }
-  /// Sets `convex` to part `i`. Returns false if an asset is missing. `inner`: for a hull child of a compound, takes
-  /// its inner hull, which is used to test bodies that penetrate deeply.
+  /// Sets `convex` to part `i`. Returns false if an asset is missing. If `inner` is true and the part is a hull child
+  /// of a compound, takes the child's inner hull: a smaller hull inside it, for tests of bodies that penetrate deeply.
   bool convex(uint32_t i, bool inner, Convex& convex) const;
-  /// The number of part `i` in contacts: the child's number, counted from 1; 0 if the body is not a compound.
+  /// The number that stands for part `i` in ContactGeometryPoint::part: the child's number, counted from 1; 0 if the
+  /// body is not a compound.
   uint32_t name(uint32_t i) const { return whole() ? 0 : i + 1; }
   /// Sets `middle` and `half` to the middle and the half extents of the part's bounds in the body's axes, 2^-46 m. For
   /// a body that is not a compound, these are the bounds of its bounding ball. For a half-space the half extents are
@@ -35,12 +36,13 @@ class ConvexParts {
 };
 
 /// Finds the contacts of two bodies, at least one of which is a compound. Normals point from A to B. Points in one
-/// plane form one contact, whichever parts they belong to. Only the deepest k_terrain_manifolds_max planes are kept.
+/// plane form one contact, whichever parts they belong to. The result has at most k_terrain_manifolds_max contacts:
+/// TerrainManifolds merges or drops the touches of further planes.
 void collide_compound(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin,
                       const AssetTable& assets, ManifoldReduction reduction, const FeatureTable& features,
                       TerrainContacts& contacts);
 
-/// Entry of the feature table.
+/// Entry of FeatureTable (detent/features.h): the functions for compounds.
 struct CompoundOps {
   decltype(&read_compound) read;
   decltype(&collide_compound) collide;

@@ -44,7 +44,7 @@ class SmallerCore {
   SmallerCore& operator=(const SmallerCore&) = delete;
 
   const Placed& placed() const { return placed_; }
-  int32_t less() const { return less_; }  ///< the length subtracted, ulps of the block
+  int32_t less() const { return less_; }  ///< the length subtracted, in ulps (2^-30 of the pair's unit)
 
  private:
   Convex convex_;

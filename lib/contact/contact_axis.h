@@ -5,7 +5,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// The normal of a contact between two cores, and the points where they are nearest or overlap deepest. Lengths are in
-/// ulps of the pair's block (distance/support.h).
+/// ulps: 2^-30 of the pair's unit of length (distance/support.h).
 struct ContactAxis {
   Vec32 normal;            ///< from A to B, Q30
   int64_t separation;      ///< negative where the cores overlap
@@ -14,7 +14,7 @@ struct ContactAxis {
 };
 
 /// Sets `axis` to the contact axis of the pair's cores. Returns false if the cores are certainly farther apart than
-/// `above` ulps. `cache`: the vertices from which gjk() starts, updated; may be null.
+/// `above` ulps. `cache`: the vertices from which gjk() starts; find_contact_axis() updates them. May be null.
 bool find_contact_axis(const RestingPair& pair, int32_t above, DistanceCache* cache, ContactAxis& axis);
 
 }  // namespace DETENT_NAMESPACE

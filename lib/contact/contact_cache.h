@@ -21,10 +21,11 @@ struct PairBefore {
 /// Returns how many points of `geometry` have a feature that also occurs in `contact`.
 uint32_t shared_features(const ContactGeometry& geometry, const ContactState& contact);
 
-/// Carries keys over from the contacts of the last tick to those of this tick, because a plane gets a new key when it
-/// tilts slightly or merges with another plane. A contact of this tick whose key did not exist in the last tick takes
-/// the key of the contact of the last tick with which it shares the most features. It cannot take a key that another
-/// contact of this tick already has. A contact that shares no feature keeps its new key. Sorts the contacts by key.
+/// Carries the keys (TerrainContact::key, which name the touched planes) over from the contacts of the last tick to
+/// those of this tick, because a plane gets a new key when it tilts slightly or merges with another plane. A contact of
+/// this tick whose key did not exist in the last tick takes the key of the contact of the last tick with which it
+/// shares the most features. It cannot take a key that another contact of this tick already has. A contact that shares
+/// no feature keeps its new key. Sorts the contacts by key.
 void continue_keys(const PairBefore& before, TerrainContacts& contacts);
 
 /// Makes the state of a contact of this tick from its geometry and from its state in the last tick, `before` (null if

@@ -219,7 +219,7 @@ void Reference::clip_edge(const Flat& p, const Flat& q, uint8_t from, bool close
   }
   if (enters > leaves) return;
   const int only = left < 0 ? entered : entered < 0 ? left : -1;  // the only side that cuts the edge, or -1
-  // If the end that is kept is within the slack of this side, the end is used in place of the crossing point.
+  // If the end that is kept lies within the slack of the side `only`, the end is used in place of the crossing point.
   const bool near = only >= 0 && beyond(left < 0 ? q : p, only) >= -slack_at(only);
   const auto crossing = [&](int64_t t, int side, uint8_t end) {
     if (near) return;

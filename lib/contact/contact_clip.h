@@ -9,7 +9,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// A corner of the contact area, in the axes of the reference: u and v are coordinates in the reference plane, and w is
-/// the height above this plane along its normal. In ulps of the pair's block.
+/// the height above this plane along its normal. All are in ulps (2^-30 of the pair's unit of length).
 struct AreaPoint {
   int64_t u, v, w;
   /// vertex: a vertex of the incident feature, over the reference. crossing: the point where an incident edge crosses a
@@ -71,28 +71,31 @@ class AreaChoice {
 /// A reference feature (a face or an edge) with its sides and axes. `up` is its normal, towards the other shape.
 class Reference {
  public:
-  /// `centre`: the centre of the reference's shape, in the block. `size`: the bounding radius of the incident core or
-  /// shape, ulps. A vertex counts as inside a side if it is at most the *slack* beyond this side, so that vertices
-  /// flush with the side stay inside. The slack is 1/64 of the smaller of two lengths: `size`, and the least distance
-  /// of a side from the feature's middle. Incident edges are cut at the side itself. If the end of the edge that is
-  /// kept is within the slack of the side, this end is used in place of the cut. `aside`: for a reference edge, the
-  /// lateral distance, ulps, up to which a point counts as over the edge.
+  /// `centre`: the centre of the reference's shape, from A's centre, in ulps of the pair's block. `size`: the bounding
+  /// radius of the incident core or shape, ulps. A vertex counts as inside a side if it is at most the *slack* beyond
+  /// this side, so that vertices flush with the side stay inside. The slack is 1/64 of the smaller of two lengths:
+  /// `size`, and the least distance of a side from the feature's middle. Incident edges are cut at the side itself. If
+  /// the end of the edge that is kept is within the slack of the side, this end is used in place of the cut. `aside`:
+  /// for a reference edge, the lateral distance, ulps, up to which a point counts as over the edge.
   Reference(const Placed& placed, const Vec32& centre, const Feature& feature, const Vec32& up, int32_t size,
             int64_t aside = 0);
-  /// The plane of a half-space as the reference. `foot`: any point near the contact, in the block.
+  /// The plane of a half-space as the reference. `foot`: any point near the contact. `centre` and `foot` are relative
+  /// to A's centre, in ulps of the pair's block.
   Reference(const Placed& half_space, const Vec32& centre, const Vec32& foot);
 
-  /// Clips `incident` against the sides of the reference. Adds the corners of the contact area to `choice`.
+  /// Clips `incident` against the sides of the reference. `centre`: the centre of the shape to which `incident`
+  /// belongs, in ulps from A's centre. Adds the corners of the contact area to `choice`.
   void clip(const Vec32& centre, const Feature& incident, AreaChoice& choice) const;
 
-  /// Whether `point` (in the block) is over the reference: inside all of its sides, by the same test as in clip().
+  /// Whether `point` (in ulps from A's centre) is over the reference: inside all of its sides, by the same test as in
+  /// clip().
   bool holds(const Vec32& point) const { return holds(flat(point)); }
-  /// Converts `point` from the block to the reference's axes. `kind` of the result has no meaning.
+  /// Converts `point`, in ulps from A's centre, to the reference's axes. `kind` of the result has no meaning.
   AreaPoint over(const Vec32& point) const;
-  /// The height above the reference of `point`, which is given in the block. For a point beyond an end of a reference
-  /// edge: the height above this end.
+  /// The height of `point` above the reference, in ulps. `point` is given in ulps from A's centre. For a point beyond
+  /// an end of a reference edge: the height above this end.
   int64_t height_of(const Vec32& point) const;
-  /// Returns twice the midpoint between the two cores at a point of the contact area, in the block.
+  /// Returns twice the midpoint between the two cores at a point of the contact area, in ulps from A's centre.
   Vec64 twice_middle(const AreaPoint& point) const;
   const Vec32& up() const { return up_; }
   uint32_t name_on_reference(const AreaPoint& point) const;
@@ -101,7 +104,7 @@ class Reference {
  private:
   struct Side {
     int32_t u, v;   ///< outward normal, Q30; 0 for a side of zero length
-    int64_t limit;  ///< the points (x, y) with u x + v y <= limit lie inside the side; ulps, Q30
+    int64_t limit;  ///< the points (x, y) with u x + v y <= limit lie inside the side; in 2^-30 ulps
   };
   struct Flat {
     int64_t u, v, w;
@@ -112,7 +115,8 @@ class Reference {
   void add_sides(const Vec32& centre, int32_t size, int64_t aside);
   void clip_edge(const Flat& p, const Flat& q, uint8_t from, bool closed, AreaChoice& choice) const;
   void offer_corners(const Flat* points, const Feature& incident, AreaChoice& choice) const;
-  /// The slack beyond a side, ulps, Q30. The lateral limits of a reference edge have no slack.
+  /// The slack beyond a side (see the constructor), in 2^-30 ulps. The lateral limits of a reference edge have no
+  /// slack.
   int64_t slack_at(int side) const { return side < feature_->count ? slack_ * k_one_64 : 0; }
   int64_t beyond(const Flat& p, int side) const {
     return side_[side].u * p.u + side_[side].v * p.v - side_[side].limit;

@@ -18,7 +18,7 @@ constexpr int k_aside_power = 5;            ///< lateral limit for two edges: 2^
 constexpr int64_t k_upright = k_one >> 13;  ///< rad, Q30; the normal of a face replaces an axis this close to it
 constexpr int64_t k_level = k_one >> 5;     ///< rad, Q30; edges closer to parallel than this touch along a line
 
-/// Returns the smaller of two lengths, but the other if one of them is 0.
+/// Returns the smaller of two lengths. If one length is 0, returns the other length.
 int64_t smaller_but_0(int64_t a, int64_t b) { return a == 0 ? b : b == 0 || a < b ? a : b; }
 int32_t radius_in_block(const Placed& placed) { return in_block(placed, placed.convex->core_radius); }
 
@@ -43,7 +43,7 @@ int nearest_to(const AreaPoint& place, const AreaChoice& choice) {
 /// The name and normal of the face and the name of the edge are therefore stored when they are first found.
 struct Half {
   const Placed& placed;
-  Vec32 centre;                    ///< in the block
+  Vec32 centre;                    ///< from A's centre, ulps of the pair's block
   Vec32 outward;                   ///< the contact axis, towards the other shape, Q30
   int32_t thickness;               ///< core_half_thickness()
   mutable uint32_t face_name = 0;  ///< 0: not yet searched for; k_no_face: there is none
@@ -52,14 +52,15 @@ struct Half {
 
   static constexpr uint32_t k_no_face = 1;
 
-  /// supporting_face() along `outward`.
+  /// Sets `face` to supporting_face() along `outward`, and stores its name and normal. Returns false if there is no
+  /// face.
   bool find_face(Feature& face) const {
     const bool found = supporting_face(placed, outward, thickness, face);
     face_name = found ? face.name() : k_no_face;
     if (found) face_normal = face.normal;
     return found;
   }
-  /// supporting_edge() along `outward`, with a slope of at most k_level.
+  /// Sets `edge` to supporting_edge() along `outward`, with a slope of at most k_level, and stores its name.
   void find_edge(Feature& edge) const {
     supporting_edge(placed, outward, k_level, edge);
     edge_name = edge.name();
@@ -130,10 +131,11 @@ class Builder {
   const ContactRules& rules_;
   Half half_a_, half_b_;
   int64_t preference_, drop_;
-  bool only_over_ = false;  ///< the point on the axis is left out if it is not over the reference
+  bool only_over_ = false;  ///< the contact point on the contact axis is left out if it is not over the reference
 };
 
-/// Whether `normal` (outward from `half`) separates the cores as well as the axis, to within preference_.
+/// Whether `normal` (outward from `half`) separates the cores about as well as the contact axis: the separation along
+/// `normal` is smaller by at most preference_.
 bool Builder::parts_as_well(const Half& half, const Half& other, const Vec32& normal) const {
   const Vec32 top = add(half.centre, support(half.placed, normal).point);
   const Vec32 bottom = add(other.centre, support(other.placed, negate(normal)).point);
@@ -152,8 +154,8 @@ bool Builder::find_face(const Half& half, const Half& other, Feature& face) cons
   return true;
 }
 
-/// Adds a contact point. `normal`: from A to B. `twice_middle`: twice the midpoint between the cores, in the block.
-/// `on_a` and `on_b`: names of the touching features.
+/// Adds a contact point. `normal`: from A to B. `twice_middle`: twice the midpoint between the cores, in ulps from A's
+/// centre. `on_a` and `on_b`: names of the touching features.
 void Builder::add_point(const Vec32& normal, const Vec64& twice_middle, int64_t separation, uint32_t on_a,
                         uint32_t on_b, BlockManifold& manifold) const {
   const int64_t ahead = (pair_.radius_a - pair_.radius_b) / 2;
@@ -165,7 +167,7 @@ void Builder::add_point(const Vec32& normal, const Vec64& twice_middle, int64_t 
   Vec64 from_a = {component(m.x, normal.x), component(m.y, normal.y), component(m.z, normal.z)};
   Vec64 from_b = {component(m.x - 2 * int64_t{o.x}, normal.x), component(m.y - 2 * int64_t{o.y}, normal.y),
                   component(m.z - 2 * int64_t{o.z}, normal.z)};
-  // A half-space's position may be too far away to be represented in the block. The vector from this position to the
+  // A half-space's position may be too far away for 32-bit coordinates in ulps. The vector from this position to the
   // point is therefore computed from the other body's vector and the offset of the positions, in 2^-46 m.
   const Vec64& shift = pair_.offset_metres;
   if (pair_.a.convex->type == ShapeType::half_space)

@@ -11,7 +11,8 @@ inline namespace DETENT_NAMESPACE {
 /// 2^-k_drop_power of the smaller core's bounding radius.
 inline constexpr int k_drop_power = 10;
 
-/// A ManifoldPoint in integers. Lengths are in 2^-46 m, vectors in the axes of the pair's block.
+/// A ManifoldPoint in integers. Lengths are in 2^-46 m. Vectors are in the axes in which the pair is placed: those of
+/// the world or, in TerrainPair, those of the terrain.
 struct BlockPoint {
   Vec64 from_a, from_b;
   int64_t separation;
@@ -45,7 +46,8 @@ inline ContactRules rules_of(int64_t margin, ManifoldReduction reduction) {
   return {margin, 0, reduction, true, false};
 }
 
-/// As contact_points(), but in integers: the pair is placed in its block (RestingPair), and the result is in 2^-46 m.
+/// As contact_points(), but in integers: `pair` holds the two shapes in integer coordinates, and lengths in `manifold`
+/// are in 2^-46 m.
 void find_contact_points(const RestingPair& pair, const ContactRules& rules, DistanceCache* cache,
                          BlockManifold& manifold);
 
@@ -60,8 +62,8 @@ Status contact_points_by(const ContactRules& rules, const Convex& a, const Pose&
 
 /// Finds the contact points between A's `face` and the feature of B that is farthest in the direction opposite to the
 /// face's normal. The contact normal is the face's normal. The function finds only points that are over the face, or
-/// beyond its sides by at most the slack of Reference (contact_clip.h) for the bounding radius of B; there may be none.
-/// It makes no search, so the result is never capped.
+/// beyond its sides by at most a tolerance (the slack of Reference in contact_clip.h, with the bounding radius of B as
+/// its `size`). There may be no such points. It makes no search, so the result is never capped.
 void contact_points_over_face(const RestingPair& pair, const Feature& face, int64_t margin, ManifoldReduction reduction,
                               BlockManifold& manifold);
 

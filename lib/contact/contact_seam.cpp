@@ -16,8 +16,8 @@ struct NearFaces {
   }
 };
 
-/// Returns the flat faces of the core whose planes pass at most `room` outside `point`, which is relative to the core's
-/// centre. Lengths are in ulps of the block.
+/// Returns the outward normals of those flat faces of the core whose planes pass at most `room` outside `point`.
+/// `point` is relative to the core's centre. Lengths are in ulps (2^-30 of the pair's unit).
 NearFaces faces_about(const Placed& placed, const Vec32& point, int64_t room) {
   NearFaces near;
   const Convex& convex = *placed.convex;
@@ -57,7 +57,7 @@ NearFaces faces_about(const Placed& placed, const Vec32& point, int64_t room) {
   return near;
 }
 
-/// Returns the separation of the cores along `normal` (from A to B), ulps of the block. Sets `axis` to this normal, the
+/// Returns the separation of the cores along `normal` (from A to B), in ulps. Sets `axis` to this normal, the
 /// separation, and the points of the cores that are farthest along it.
 int64_t apart_along(const RestingPair& pair, const Vec32& normal, ContactAxis& axis) {
   axis.normal = normal;

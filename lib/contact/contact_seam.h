@@ -21,8 +21,8 @@ inline int64_t sliver_room(int64_t thickness, int64_t sunk) {
   return held > thickness >> 5 ? held : thickness >> 5;
 }
 
-/// Cosines, Q60, of 2^-2 rad (k_alike) and 2^-4 rad (k_level_faces). If the dot product of two unit vectors (Q30) is
-/// greater than the cosine, the angle between them is smaller than this angle.
+/// Cosines, Q60, of 2^-2 rad (k_alike) and 2^-4 rad (k_level_faces). If the dot product of two unit vectors (Q30)
+/// exceeds one of these cosines, the angle between the vectors is smaller than the angle of that cosine.
 inline constexpr int64_t k_alike = (int64_t{1} << 60) - (int64_t{1} << 55);
 inline constexpr int64_t k_level_faces = (int64_t{1} << 60) - (int64_t{1} << 51);
 

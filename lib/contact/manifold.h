@@ -12,7 +12,9 @@ inline namespace DETENT_NAMESPACE {
 struct PairPoint {
   Vec3<Unit> point;  ///< midway between the surfaces
   Unit separation;   ///< along the normal; negative when overlapping
-  uint32_t feature;  ///< key of the two features that touch: distinct in a manifold, constant while they touch, not 0
+  /// Key of the two features (vertices, edges, faces) that touch. It differs between the points of a manifold, stays
+  /// the same while the features touch, and is not 0.
+  uint32_t feature;
 };
 
 /// Contact of a pair: one normal and up to four points, in the pair's frame.

@@ -23,7 +23,8 @@ Unit unit_from_anchor(int16_t raw) {
   return scale_by_power(static_cast<Unit>(raw), -k_anchor_frac);  // exact
 #endif
 }
-/// Rounds a coordinate, in the body's unit, to that of an anchor. Range: |value| < 1 - 2^-k_anchor_frac.
+/// Rounds a coordinate of a contact point, in the body's unit, to the format of ManifoldState::anchor. Range: |value| <
+/// 1 - 2^-k_anchor_frac.
 int16_t anchor_from_unit(Unit value) {
 #if DETENT_FIXED
   return static_cast<int16_t>(round_shift_64(value.raw, k_unit_frac - k_anchor_frac));
@@ -69,7 +70,8 @@ struct RecyclePair {
   }
   Vec3<Unit> offset_in_base() const { return multiply_transposed(base.rotation, offset); }
   Quat rotation_in_base() const { return multiply(conjugate(base.pose.rotation), other.pose.rotation); }
-  /// Returns the vector from the other body's centre to an anchor, in the other body's unit, in world axes.
+  /// Returns the vector from the other body's centre to an anchor (a stored contact point), in the other body's unit,
+  /// in world axes.
   Vec3<Unit> arm_at(const int16_t (&anchor)[3]) const {
     return multiply(other.rotation,
                     Vec3<Unit>{unit_from_anchor(anchor[0]), unit_from_anchor(anchor[1]), unit_from_anchor(anchor[2])});

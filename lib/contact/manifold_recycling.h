@@ -4,9 +4,10 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Makes the data from which later ticks can recycle a pair's contact. The data is all zero for a contact that is not
-/// recycled: a contact without points; a contact with a half-space, because it can be found anew as fast as recycled;
-/// the result of a capped search; and a contact of bodies that overlap deeply.
+/// Makes the data from which later ticks can recycle a pair's contact: use its points again while the pair has hardly
+/// moved. The data is all zero for a contact that is not recycled: a contact without points; a contact with a
+/// half-space, because it can be found anew as fast as recycled; the result of a capped search; and a contact of bodies
+/// that overlap deeply.
 ManifoldState kept_manifold(const CollisionBody& a, const CollisionBody& b, const ContactGeometry& contact);
 
 /// Whether the data belongs to a contact that can be recycled. False if the data is all zero.

@@ -16,8 +16,8 @@ class PartCulling {
   PartCulling(const BodyProperties& a, const Pose& pose_a, const BodyProperties& b, const Pose& pose_b, Real distance,
               const Vec3<Real>& displacement);
 
-  /// Converts a box, given by its middle and half extents, 2^-46 m, from B's axes to A's axes, and extends it by the
-  /// displacement.
+  /// Converts a box, given by its middle and half extents, 2^-46 m, from B's axes to A's axes, and extends it to
+  /// contain the box during all of B's displacement relative to A.
   void bring(Vec64& middle, Vec64& half) const;
   /// Whether parts with these boxes may come near each other. `middle_b` and `half_b`: as bring() returns them.
   bool meet(const Vec64& middle_a, const Vec64& half_a, const Vec64& middle_b, const Vec64& half_b) const;
@@ -25,7 +25,7 @@ class PartCulling {
  private:
   TerrainPlace place_;
   int64_t margin_ = 0;                   ///< 2^-46 m
-  Vec64 half_displacement_ = {0, 0, 0};  ///< half of the displacement, in A's axes, 2^-46 m
+  Vec64 half_displacement_ = {0, 0, 0};  ///< half of B's displacement relative to A, in A's axes, 2^-46 m
   bool known_;                           ///< false: no part is culled
 };
 

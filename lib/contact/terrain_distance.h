@@ -14,7 +14,7 @@ bool farther_than_terrain(const AssetTable& assets, const BodyProperties& ground
                           const BodyProperties& body, const Convex& convex, const Pose& pose, Real margin,
                           bool& farther);
 
-/// Entry of the feature table.
+/// Entry of FeatureTable (detent/features.h): the distance test for terrain.
 struct TerrainDistanceOps {
   decltype(&farther_than_terrain) farther;
 };

@@ -17,16 +17,17 @@ constexpr int32_t k_equal_cosine = (1 << 28) - (1 << 3);
 constexpr int32_t k_near_cosine = (1 << 28) - (1 << 25);
 constexpr uint32_t k_edge_key = 0x80000000u;
 
-/// Whether a group with these values is kept in preference to the other group: a group that is not doubtful before a
-/// doubtful one, else the deeper group.
+/// Whether a group (all touches in one plane) with the first two values is kept rather than a group with the other two.
+/// A group that is not doubtful (TerrainTouch::doubtful) comes before a doubtful group. Otherwise the deeper group
+/// comes first.
 bool comes_before(bool doubtful, int64_t deepest, bool other_doubtful, int64_t other_deepest) {
   return doubtful != other_doubtful ? other_doubtful : deepest < other_deepest;
 }
 
 int64_t along(const Vec64& v, const Vec32& direction) { return dot(v, direction).round_shift(30); }
 
-/// Returns the name of a normal: its components, coarsely rounded. Similar normals have the same name; a normal along
-/// an axis lies in the middle of the normals with its name.
+/// Returns the name of a normal: its components, coarsely rounded. Similar normals have the same name. The normals that
+/// share their name with an axis lie around that axis.
 uint32_t normal_name(const Vec32& normal) {
   const auto part = [](int32_t a) { return static_cast<uint32_t>((a + (1 << 24)) >> 25) & 0x7f; };
   return 1u << 29 | part(normal.x) << 22 | part(normal.y) << 15 | part(normal.z) << 8;
@@ -149,9 +150,9 @@ uint32_t TerrainManifolds::chosen_of(const Group& group, int64_t level, int64_t 
   return chosen;
 }
 
-/// Returns the index of the point that is removed to make room for another point: the highest of those that are neither
-/// an extreme nor the deepest point. Of eight points, at least three are neither. Among points of about the same
-/// height, the result is the first.
+/// Returns the index of the point that is removed to make room for another point: the highest of those points of the
+/// group that are neither an extreme nor the deepest point. A full group has eight points, so at least three of them
+/// are neither. Among points of about the same height, the result is the first.
 uint32_t TerrainManifolds::spare_point(const Group& group) const {
   const uint32_t needed = chosen_of(group, INT64_MAX, INT64_MAX / 2, false) | 1u << deepest_of(group);
   uint32_t spare = k_points_max;

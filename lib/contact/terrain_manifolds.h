@@ -9,8 +9,10 @@ inline constexpr uint32_t k_terrain_manifolds_max = 16;  ///< largest number of 
 
 /// One planar contact of a shape with terrain (a mesh or height field), in the terrain's axes.
 struct TerrainManifold {
-  Vec32 normal;       ///< from the terrain to the shape, Q30
-  uint32_t key;       ///< of the touched plane or edge: constant while the shape stays on it, distinct, never 0
+  Vec32 normal;  ///< from the terrain to the shape, Q30
+  /// Key of the touched plane or edge: it stays the same while the shape stays there, differs from the keys of the
+  /// shape's other manifolds, and is never 0.
+  uint32_t key;
   uint32_t triangle;  ///< the triangle touched deepest
   uint8_t material;   ///< material of that triangle
   bool turns;         ///< as ContactGeometry::turns
@@ -34,12 +36,12 @@ class TerrainManifolds {
   TerrainManifolds(int64_t size, int same_power)
       : size_(size), same_cosine_(k_one_cosine - (k_one_cosine >> (2 * same_power + 1))) {}
   void add(const TerrainTouch& touch);
-  /// Call this after the last add(). Leaves out the doubtful manifolds, unless all are doubtful, and sorts the
-  /// manifolds by key, ascending. Returns their number.
+  /// Call this after the last add(). Leaves out the doubtful manifolds (too deep to trust their normals,
+  /// TerrainTouch::doubtful), unless all are doubtful, and sorts the manifolds by key, ascending. Returns their number.
   uint32_t finish();
   /// Returns the manifold with the index `place` in the order of finish().
   TerrainManifold manifold(uint32_t place) const;
-  /// Number of touches dropped so far for lack of room.
+  /// Number of touches dropped so far because no manifold could take them.
   uint32_t dropped() const { return dropped_; }
   bool capped() const { return capped_; }
 
@@ -81,7 +83,9 @@ class TerrainManifolds {
 struct TerrainContact {
   /// A and B are as in the call that fills this struct; for collide_mesh() and put_contact(), A is `ground`.
   ContactGeometry geometry;
-  uint32_t key;       ///< the same while the body stays on the same plane or edge; distinct, never 0
+  /// Key of the touched plane or edge: it stays the same while the body stays there, differs from the keys of the
+  /// pair's other contacts, and is never 0.
+  uint32_t key;
   uint32_t triangle;  ///< the triangle touched deepest; 0 if there is no terrain
   uint8_t material;   ///< material of that triangle; 0 if there is no terrain
 };

@@ -20,7 +20,7 @@ void collide_terrain(const CollisionBody& a, const CollisionBody& b, const Conta
 void collide_part_with_terrain(const CollisionBody& a, const CollisionBody& b, const Convex& part, const Vec64& middle,
                                const ContactMargins& margin, const AssetTable& assets, TerrainContacts& contacts);
 
-/// Entry of the feature table.
+/// Entry of FeatureTable (detent/features.h): the functions for terrain.
 struct TerrainOps {
   decltype(&read_terrain) read;
   decltype(&collide_terrain) collide;

@@ -9,11 +9,11 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int k_shallow_power = 3;  ///< a contact less deep than 2^-3 of the half thickness is shallow
-constexpr int k_lowest_power = 10;  ///< a point counts as lowest if it is at most 2^-10 of the half thickness higher
+constexpr int k_lowest_power = 10;  ///< points up to 2^-10 of the half thickness above the lowest point count as lowest
 constexpr int k_allowed_power = 7;  ///< an allowed normal may tilt by 2^-7 rad into the neighbouring triangles
 constexpr int k_level_power = 6;    ///< an edge at less than 2^-6 rad to the contact plane touches along its length
 constexpr int k_mild_power = 3;     ///< an edge is mild if the normals of its faces are at most 2^-3 rad apart
-constexpr uint32_t k_fan_max = 64;  ///< number of triangles around a corner that are tested in each direction
+constexpr uint32_t k_fan_max = 64;  ///< at most this many triangles around a corner are tested in each direction
 
 constexpr uint64_t longest(const Vec32& v) {
   uint64_t most = magnitude_32(v.x);
@@ -358,9 +358,9 @@ __attribute__((noinline)) bool TerrainPair::is_lowest_beside(const Side& side, i
 
 /// Whether a contact found at an edge of the triangle is a contact at a seam (contact_seam.h). A contact whose normal
 /// is within 2^-2 rad of the triangle's normal is at a seam if a round shape touches an edge that is level with the
-/// triangle. Any other contact is at a seam if it is a sliver. The result is false without ContactRules::smooth_seams,
-/// and if no edge of the triangle is convex or open. `facing`: the dot product of the contact normal and the triangle's
-/// normal, Q60. `deepest`: the least separation of the contact, 2^-46 m.
+/// triangle. Any other contact is at a seam if it is a sliver (is_sliver()). The result is false without
+/// ContactRules::smooth_seams, and if no edge of the triangle is convex or open. `facing`: the dot product of the
+/// contact normal and the triangle's normal, Q60. `deepest`: the least separation of the contact, 2^-46 m.
 bool TerrainPair::is_at_seam(const Side& side, int64_t facing, int64_t deepest) const {
   if (!rules_.smooth_seams || !side.has_free_edge()) return false;
   const auto within = [&](int64_t room) { return side.height >= -room && side.height <= room && deepest >= -room; };
@@ -442,7 +442,7 @@ bool TerrainPair::touch(uint32_t index, TerrainTouch& touch) const {
     touch.seam = true;
     if (facing < k_alike) return false;
     turn_to(side.normal, searched);
-    // The separation of each point becomes the height of its place on the shape above the triangle's plane.
+    // The separation of each point becomes the height, above the triangle's plane, of its place on the shape.
     const Vec64 from = negate(from_centre(side.triangle.corner[0]));
     for (uint32_t i = 0; i < searched.count; ++i) {
       BlockPoint& point = searched.point[i];

@@ -37,9 +37,9 @@ int64_t bound_of(const Vec64 (&corner)[3]);
 Vec64 rotate(const Matrix32& m, const Vec64& v);
 Vec64 rotate_back(const Matrix32& m, const Vec64& v);
 
-/// Returns a unit vector perpendicular to a normal, Q30. Equal normals give the same vector. So the points of all
-/// triangles in a plane are reduced along the same diagonals, and the extreme points of the plane are among those that
-/// its triangles keep.
+/// Returns a unit vector perpendicular to a normal, Q30. Equal normals give the same vector. The manifold reduction
+/// therefore uses the same four directions for all triangles of a plane. So the extreme points of the plane are among
+/// the points that are kept for its triangles.
 Vec32 axis_across(const Vec32& normal);
 
 /// A touch: the contact of a shape with one triangle, along one normal.
@@ -47,10 +47,12 @@ struct TerrainTouch {
   uint32_t triangle;
   uint32_t part;  ///< as ContactGeometryPoint::part
   uint8_t material;
-  bool on_face;             ///< the normal is the triangle's normal
-  bool seam;                ///< as ContactGeometry::seam; set even if touch() returns false
-  bool doubtful;            ///< too deep to trust this normal: used only if no contact is free of doubt
-  BlockManifold manifold;   ///< A is the triangle, its origin at the shape's centre; terrain's axes
+  bool on_face;  ///< the normal is the triangle's normal
+  bool seam;     ///< as ContactGeometry::seam; set even if touch() returns false
+  /// The contact is too deep to trust its normal. It is used only if all touches of the shape are doubtful.
+  bool doubtful;
+  /// The contact, in the terrain's axes. A is the triangle, whose origin is the shape's centre; B is the shape.
+  BlockManifold manifold;
   int64_t deepest;          ///< the least separation, 2^-46 m
   uint32_t corner_name[3];  ///< names of the corners; the same for all triangles that share a corner
 };
@@ -72,8 +74,9 @@ class TerrainPair {
   /// The contact normal must be one that the terrain allows. On the face, and at flat and concave edges, only the
   /// triangle's own normal is allowed. At a convex or open edge, or at a corner, the directions between the normals of
   /// the adjacent faces are allowed too. Contact points over the triangle along its own normal are found without a
-  /// search for the contact axis. A search is made only near a sharp edge, at a mild ridge if no contact point is over
-  /// the triangle, and for deep contacts.
+  /// search for the contact axis. A search is made only in three cases: the triangle has a sharp edge (open, or convex
+  /// with face normals more than 2^-3 rad apart); the contact is deep; or no contact point is over the triangle, but
+  /// the shape's lowest point is over it or close beside it.
   bool touch(uint32_t triangle, TerrainTouch& touch) const;
 
  private:
@@ -103,7 +106,8 @@ class TerrainPair {
   Vec64 centre_, middle_;
   const ContactRules& rules_;
   int64_t margin_, radius_, thickness_;
-  Placed alone_;  ///< the shape placed in a block of its own unit of length
+  /// The shape in integer coordinates from its own centre: in the terrain's axes, in 2^-30 of its own unit of length.
+  Placed alone_;
   GridBox box_;
 };
 

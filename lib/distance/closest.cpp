@@ -13,7 +13,7 @@ Status farther_by(const Convex& a, const Pose& pose_a, const Convex& b, const Po
                   int32_t slack, bool& result, DistanceCache* cache) {
   RestingPair pair;
   if (const Status status = rest(a, pose_a, b, pose_b, pair); status != Status::ok) return status;
-  // The threshold in the block, rounded up. No distance in the block exceeds INT32_MAX ulps.
+  // The threshold in ulps (2^-30 of the pair's unit), rounded up. No distance between the cores exceeds INT32_MAX ulps.
   const int64_t needed = saturated_sum(saturated_sum(distance_max, pair.radius_a), pair.radius_b);
   const int64_t ulps = (needed >> (k_metre_bits - 30 + pair.exponent)) + (needed > 0 ? 1 : 0) + slack;
   result = false;

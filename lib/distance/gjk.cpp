@@ -10,7 +10,7 @@ Vec32 difference_of(const Placed& a, const Placed& b, const Vec32& offset, const
   return add(offset, subtract(b.point(vertex.b.local), a.point(vertex.a.local)));
 }
 
-/// Rebuilds the simplex of an earlier query from its core points: computes their differences in the current block.
+/// Rebuilds the simplex of an earlier query from its core points: computes their differences at the current poses.
 void restart(const Placed& a, const Placed& b, const Vec32& offset, Simplex& simplex) {
   const Simplex last = simplex;
   simplex.clear();

@@ -181,7 +181,7 @@ int64_t raw_radius(const Convex& convex) {
 bool raw_difference(const Position& a, const Position& b, Vec64& raw) {
   if (!is_finite(a.x) || !is_finite(a.y) || !is_finite(a.z)) return false;
   if (!is_finite(b.x) || !is_finite(b.y) || !is_finite(b.z)) return false;
-  // Clamped a little below INT64_MAX, so that rounding to a block never overflows.
+  // Clamped a little below INT64_MAX, so that the later rounding to ulps never overflows.
   constexpr int64_t k_limit = INT64_MAX - (int64_t{1} << 36);
   const auto component = [](Coord p, Coord q) {
     const int64_t difference = difference_of(p, q);

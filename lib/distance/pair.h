@@ -49,15 +49,15 @@ DETENT_SHARED constexpr int64_t saturated_sum(int64_t a, int64_t b) {
   if (b > 0) return a > INT64_MAX - b ? INT64_MAX : a + b;
   return a < -INT64_MAX - b ? -INT64_MAX : a + b;
 }
-/// Converts ulps of a block, whose unit of length is 2^exponent m, to 2^-46 m. Overflow: saturates.
+/// Converts a length from ulps (2^-30 of a unit of length of 2^exponent m) to 2^-46 m. Overflow: saturates.
 int64_t raw_from_block(int64_t ulps, int exponent);
 /// Moves a core's point `core` to the surface of its ball: by `radius` (2^-46 m) along the unit vector `normal` (Q30).
-/// `core` is in a block whose unit of length is 2^exponent m. Returns the moved point in m.
+/// `core` is in 2^-30 of a unit of length of 2^exponent m. Returns the moved point in m.
 Vec3<Real> surface_point(const Vec32& core, int exponent, const Vec32& normal, int64_t radius);
 
 /// Returns the surface point of a half-space below the other body's core point `on_other`: the point at the distance
 /// `gap` from `on_other`, in the direction opposite to the half-space's normal `up` (Q30). `on_other` (from the other
-/// body's centre) and `gap` are in ulps of a block whose unit is 2^exponent m. `offset`: from the half-space's position
+/// body's centre) and `gap` are in 2^-30 of a unit of length of 2^exponent m. `offset`: from the half-space's position
 /// to the other body's, 2^-46 m. Result in m, relative to the half-space's position.
 Vec3<Real> half_space_point(const Vec64& offset, const Vec32& on_other, int exponent, const Vec32& up, int32_t gap);
 
@@ -67,8 +67,8 @@ int raw_exponent_above(int64_t raw);
 Vec64 component_along(const Vec64& v, const Vec32& n);
 /// Returns the unit vector v (Q30) times `length`. The result is in the unit of `length`.
 Vec32 scaled_vector(const Vec32& v, int64_t length);
-/// raw_core_radius() returns the radius of the core, raw_radius() the radius of the ball that rounds it. Both in
-/// 2^-46 m.
+/// raw_core_radius() returns the bounding radius of the core. raw_radius() returns the radius of the ball that rounds
+/// the core. Both results are in 2^-46 m.
 int64_t raw_core_radius(const Convex& convex);
 int64_t raw_radius(const Convex& convex);
 

@@ -11,14 +11,14 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int64_t k_ulp = int64_t{1} << 30;  ///< one ulp of the block, in Q30
+constexpr int64_t k_ulp = int64_t{1} << 30;  ///< one ulp (2^-30 of the pair's unit of length), in Q30
 constexpr int k_vertices_max = k_penetration_vertices_max;
 constexpr int k_faces_max = 2 * k_vertices_max - 4;
 static_assert(k_vertices_max <= 64, "edges are rows of 64 bits");
 
-/// Returns the signed distance from the origin to the plane through `point` perpendicular to `normal`, in ulps of the
-/// block, Q30. It is positive if the plane lies in the direction of the normal. Rounding: to nearest, from a quotient
-/// with a relative error below 2^-62.
+/// Returns the signed distance from the origin to the plane through `point` perpendicular to `normal`, in 2^-30 ulps.
+/// It is positive if the plane lies in the direction of the normal. Rounding: to nearest, from a quotient with a
+/// relative error below 2^-62.
 int64_t plane_distance(const Vec64& normal, const Vec32& point) {
   const Int128 square = dot(normal, normal);
   const int half_shift = (126 - bit_length_128(magnitude_128(square))) / 2;
@@ -26,7 +26,7 @@ int64_t plane_distance(const Vec64& normal, const Vec32& point) {
   const uint64_t length = square_root_nearest(Words128{static_cast<uint64_t>(scaled.high_word()), scaled.low_word()});
   return divide_rounded(dot(normal, point).shift_left(30 + half_shift), static_cast<int64_t>(length));
 }
-/// If the distances of two planes differ by no more than this (ulps, Q30), rounding may hide which plane is nearer.
+/// If the distances of two planes differ by no more than this (in 2^-30 ulps), rounding may hide which plane is nearer.
 constexpr int64_t k_tie = 4;
 
 /// A vertex of the Minkowski difference B - A.
@@ -38,7 +38,7 @@ struct Vertex {
 /// A triangle; its vertices are counter-clockwise seen from outside.
 struct Face {
   uint8_t vertex[3];
-  int64_t distance;  ///< from the origin to its plane, ulps, Q30
+  int64_t distance;  ///< from the origin to its plane, in 2^-30 ulps
 };
 
 /// The convex hull of some vertices of the difference; its boundary consists of triangles.
@@ -63,7 +63,7 @@ struct ExpandingPolytope {
   /// Whether the origin's projection onto the face's plane lies in the face.
   bool holds_foot(const Face& f) const;
   /// Returns the face nearest to the origin, within rounding. Sets `least` to the least distance of a face's plane from
-  /// the origin (Q30), also within rounding.
+  /// the origin (in 2^-30 ulps), also within rounding.
   const Face& nearest_face(int64_t& least) const;
 };
 static_assert(sizeof(ExpandingPolytope) <= 4096);
@@ -123,7 +123,8 @@ void exact_support(const Placed& placed, const Vec64& normal, SupportPoint& foun
   if (found.core.feature == k_no_feature) return;
   // A vertex cannot be the farthest if its coordinate along `direction` is smaller than that of `found` by more than
   // `doubt`. Both are dot products of a local point, in 2^-30 of the shape's unit, with `direction`. `doubt` covers 4
-  // ulps of the shape for the rounded directions and 9 ulps of the block for the two rounded points.
+  // units of 2^-30 of the shape's unit for the rounded directions, and 9 ulps of the pair's block for the two rounded
+  // points.
   const Vec32 direction = rotate_inverse(placed.rotation, scaled_to_30_bits(normal));
   const int64_t doubt = int64_t{16} << (30 + (placed.shift < 27 ? placed.shift : 27));
   const int64_t floor = dot(direction, found.core.local) - doubt;

@@ -64,10 +64,10 @@ EdgeFaces Polytope::faces(uint32_t from, uint32_t to) const {
   const Vec32 start = vertex(from), end = vertex(to);
   const HullIndices near = neighbours(from), far = neighbours(to);
   EdgeFaces faces = {{0, 0, 0}, {0, 0, 0}, false};
-  // Each of the two triangles at the edge has a third corner, which is a neighbour of both ends of the edge. For the
-  // triangle on one side, this corner is the common neighbour of the ends whose plane (through this neighbour and the
-  // edge) has no other common neighbour above it. The common neighbours lie within an angle of pi about the edge, so
-  // they are ordered by angle. If they span exactly pi, the edge is flat.
+  // Each of the two triangles at the edge has a third corner, which is a neighbour of both ends of the edge. On either
+  // side, this corner is the outermost common neighbour of the two ends: no other common neighbour lies above the plane
+  // through the edge and this corner. The common neighbours lie within an angle of pi about the edge, so they are
+  // ordered by angle. If they span exactly pi, the edge is flat.
   bool first = true;
   for (uint32_t i = 0, j = 0; i < near.count && j < far.count;) {
     const uint32_t common = near.index[i];

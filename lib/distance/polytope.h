@@ -29,7 +29,7 @@ class Polytope {
   EdgeFaces faces(uint32_t from, uint32_t to) const;
 
   /// Calls visit(i, j, k) with the vertices of each triangle of the boundary, counter-clockwise seen from outside. A
-  /// triangle shape has two, one for each side.
+  /// triangle shape has two such triangles, one for each side.
   template <class Visit>
   void for_each_face(Visit&& visit) const {
     const uint32_t groups = convex_.type == ShapeType::hull ? hull_.face_count : 1;

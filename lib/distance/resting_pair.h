@@ -7,18 +7,20 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A pair of shapes at rest, placed in its block (support.h) with A's centre at the origin.
+/// A pair of shapes at rest in integer coordinates, its block (support.h): world axes, origin at A's centre, in ulps of
+/// 2^-30 of the pair's unit of length.
 struct RestingPair {
   int exponent;  ///< 2^exponent m is the pair's unit of length
-  Vec32 offset;  ///< from A's centre to B's, in the block; with a half-space only its component along the normal
+  /// From A's centre to B's, ulps. If one shape is a half-space: only the component along its normal.
+  Vec32 offset;
   Placed a, b;
   int64_t radius_a, radius_b;  ///< rounding radii, 2^-46 m
   Vec64 offset_metres;         ///< from A's position to B's, 2^-46 m
 
   bool planar() const { return a.convex->type == ShapeType::half_space || b.convex->type == ShapeType::half_space; }
-  /// Converts ulps of the block to 2^-46 m. Overflow: saturates.
+  /// Converts a length from ulps (2^-30 of the pair's unit) to 2^-46 m. Overflow: saturates.
   int64_t metres(int64_t block) const { return raw_from_block(block, exponent); }
-  /// Converts 2^-46 m to the next greater whole number of ulps of the block; at most INT32_MAX. Range: raw >= 0.
+  /// Converts a length from 2^-46 m to the next greater whole number of ulps; at most INT32_MAX. Range: raw >= 0.
   int32_t block_above(int64_t raw) const;
 };
 

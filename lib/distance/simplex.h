@@ -30,10 +30,11 @@ class Simplex {
   void start(const SimplexVertex& vertex) {
     if (count_ < 4) vertex_[count_++] = vertex;
   }
-  /// Adds `vertex` and drops the vertices that the new nearest point does not need. Returns false and changes nothing
-  /// unless `vertex` lies strictly on the origin's side of a plane: the plane through the nearest point v that is
-  /// perpendicular to v. So each insertion brings the nearest point strictly nearer. Two polytopes have finitely many
-  /// vertices, so every sequence of insertions ends. Range: not holds_origin().
+  /// Adds `vertex` and drops the vertices that the new nearest point (the simplex's point nearest to the origin) does
+  /// not need. Returns false and changes nothing unless `vertex` lies strictly on the origin's side of a plane: the
+  /// plane through the present nearest point v that is perpendicular to v. So each insertion brings the nearest point
+  /// strictly nearer. Two polytopes have finitely many vertices, so every sequence of insertions ends. Range: not
+  /// holds_origin().
   bool insert(const SimplexVertex& vertex);
 
   /// A vector from the origin towards the nearest point. Its largest component is within [2^29, 2^30] in magnitude.

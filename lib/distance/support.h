@@ -62,12 +62,13 @@ CorePoint local_support(const Convex& convex, const HullView& hull, const Vec32&
 inline CorePoint local_support(const Convex& convex, const Vec32& direction) {
   return local_support(convex, hull_of(convex), direction, 0);
 }
-/// local_support() for hulls.
+/// As local_support(), for a hull.
 CorePoint hull_support(const HullView& hull, const Vec32& direction, uint32_t start);
 /// Hulls with more vertices than this use hill climbing instead of a linear search.
 inline constexpr uint32_t k_climbing_vertices = 8;
 
-/// A core, rotated and scaled to a pair's block. Its points are relative to the core's own centre.
+/// A core in a pair's block: rotated to world axes and scaled to ulps (2^-30 of the pair's unit of length). Its points
+/// are relative to the core's own centre.
 class Placed {
  public:
   const Convex* convex;
@@ -76,7 +77,7 @@ class Placed {
   int shift;      ///< >= 0: the pair's unit of length is 2^shift times the shape's own unit
   Vec32 axis[3];  ///< box and capsule: the rotation's columns times the half extents
 
-  /// Converts a core point from the shape's axes to the block. Error: k_placing_error in each component.
+  /// Converts a core point from the shape's axes to world axes and ulps. Error: k_placing_error in each component.
   Vec32 point(const Vec32& local) const {
     if (convex->type == ShapeType::box) return box_point(local.x >> 31, local.y >> 31, local.z >> 31);
     return other_point(local);
@@ -85,8 +86,8 @@ class Placed {
   Vec32 turned(const Vec32& local) const {
     return shift > 32 ? Vec32{0, 0, 0} : round_shift(multiply(rotation, local), 30 + shift);
   }
-  /// Returns the vertex of a box, in the block. The arguments are the signs of the vertex's coordinates in the box's
-  /// axes: -1 for negative, 0 for positive.
+  /// Returns a vertex of a box, in world axes, in ulps from the box's centre. The arguments are the signs of the
+  /// vertex's coordinates in the box's axes: -1 for negative, 0 for positive.
   Vec32 box_point(int32_t x, int32_t y, int32_t z) const {
     const auto sum = [&](int32_t a, int32_t b, int32_t c) { return ((a ^ x) - x) + ((b ^ y) - y) + ((c ^ z) - z); };
     return {sum(axis[0].x, axis[1].x, axis[2].x), sum(axis[0].y, axis[1].y, axis[2].y),
@@ -96,7 +97,7 @@ class Placed {
  private:
   Vec32 other_point(const Vec32& local) const;
 };
-/// Error of Placed::point() in each component, ulps of the block: a box's point is the sum of three rounded axes.
+/// Error of Placed::point() in each component, in ulps: a box's point is the sum of three rounded axes.
 inline constexpr double k_placing_error = 1.5;
 
 /// Returns an upper bound of |v|, which exceeds |v| by at most 1.6 % plus 2. Range: |v|^2 < 2^63.
@@ -106,9 +107,9 @@ inline int64_t length_across(const Vec32& v) {
   return square_root_nearest(static_cast<uint64_t>(int64_t{v.x} * v.x) + static_cast<uint64_t>(int64_t{v.z} * v.z));
 }
 
-/// The result of support_value(). `value`: the largest value of direction . p over the points p of the core. `rate`:
-/// rate . p at the same p. Both vectors are in the shape's axes. `start`: as for local_support(); set to the feature of
-/// p, unless the shape is a sphere, half-space, capsule or box.
+/// The result of support_value(). `value`: the largest dot product of `direction` and a point p of the core. `rate`:
+/// the dot product of the argument `rate` and that p. Both arguments are in the shape's axes. `start`: as for
+/// local_support(); set to the feature of p, unless the shape is a sphere, half-space, capsule or box.
 struct SupportValue {
   int64_t value, rate;
 };
@@ -120,7 +121,7 @@ SupportValue support_value(const Convex& convex, const HullView& hull, const Vec
 Placed place(const Convex& convex, const Matrix32& rotation, int pair_exponent);
 
 struct SupportPoint {
-  Vec32 point;  ///< in the block, from the shape's centre
+  Vec32 point;  ///< from the shape's centre, in world axes, ulps
   CorePoint core;
 };
 /// Returns the placed core's point farthest along `direction` (world axes). `start`: as for local_support().

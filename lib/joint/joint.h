@@ -45,7 +45,8 @@ inline namespace DETENT_NAMESPACE {
 #endif
 
 inline constexpr uint32_t k_no_link = UINT32_MAX;
-/// Limit of the stored impulse of a row, of the impulse of a drive in a substep, and of JointWork::pull, m/s.
+/// Limit, m/s, of three impulses that are divided by a mass: the stored impulse of a row, the impulse of a drive
+/// (limit, motor, spring or friction) in a substep, and JointWork::pull.
 inline constexpr Real k_joint_impulse_max = 16384.0;
 /// A joint stores the impulse of a substep times (number of substeps) / 2^k_kept_power. This value does not depend on
 /// the number of substeps.
@@ -80,9 +81,9 @@ struct JointStage {
 /// called for the bodies. Fills `work` and `bodies`.
 void collect_joints(const SolverBodies& bodies, JointStage& stage);
 
-/// For every island: lists the assemblies, computes the elimination order of their joints, makes the couplings that the
-/// factors need, and sets the number of substeps that the joints need. `slots` lists the bodies by island. Returns the
-/// number of couplings for which there was no room.
+/// For every island: lists the assemblies, computes the elimination order of their joints, makes the couplings
+/// (off-diagonal blocks, each for two joints) that the factors need, and sets the number of substeps that the joints
+/// need. `slots` lists the bodies by island. Returns the number of couplings that had no room.
 uint32_t order_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                       Span<Island> islands, JointStage& stage);
 
@@ -98,8 +99,8 @@ inline bool has_renewed_inverse_inertia(const BodyWork& now, const JointStage& s
 }
 
 /// Solves the joints' rows for the bodies' current velocities, `elapsed`, s, after the start of the tick. Returns the
-/// number of values that were clamped. Increases `undecided` by the number of assemblies whose drive modes still
-/// disagree with the impulses after the last solve.
+/// number of values that were clamped. Increases `undecided` by the number of assemblies in which the mode of a limit,
+/// motor or friction (DriveMode) still disagrees with its impulse after the last solve.
 uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
                       JointStage& stage, uint32_t& undecided);
 
@@ -109,13 +110,13 @@ uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, 
 uint32_t solve_joints_again(const StepSettings& settings, const SolverBodies& bodies, const Island& island,
                             Real elapsed, Real enough, JointStage& stage, uint32_t& undecided);
 
-/// Adds the velocities by which the joints follow their curved paths, and computes the shifts that close gaps. Returns
-/// the number of values that were clamped.
+/// Adds the velocities that make the anchors follow the curved paths on which rotating bodies carry them. Computes the
+/// shifts of the bodies that close gaps between anchors. Returns the number of values that were clamped.
 uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
                        JointStage& stage);
 
 /// Applies the shifts that close gaps, after the bodies have moved. Then converts the bodies' angular momenta back to
-/// the inertia of the substep. Returns 1 if a value was clamped, else 0.
+/// the inertia of the substep (load_inertia()). Returns 1 if a value was clamped, else 0.
 uint32_t shift_joints(const SolverBodies& bodies, const Island& island, JointStage& stage);
 
 /// Ends a substep of an island: removes the row speeds that contacts have added, as solve_joints_again() does, adds the
@@ -128,7 +129,7 @@ uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, co
 /// rest, however slowly the motor moves.
 void store_reactions(const StepSettings& settings, const SolverBodies& bodies, JointStage& stage);
 
-/// Entry of the feature table.
+/// FeatureTable points to these functions if the feature is linked.
 struct JointOps {
   decltype(&collect_joints) collect;
   decltype(&order_joints) order;
@@ -153,8 +154,8 @@ void each_assembly(const Island& island, const JointStage& stage, const Visit& v
     done += count;
   }
 }
-/// Returns the mobile body after `body` in the assembly, or null if `body` is the last. If `body` is null, returns the
-/// first mobile body.
+/// Returns the mobile (dynamic and awake) body after `body` in the assembly, or null if `body` is the last. If `body`
+/// is null, returns the first mobile body.
 DETENT_SHARED inline JointBody* next_mobile_body(Span<const uint32_t> order, const JointStage& stage,
                                                  const JointBody* body) {
   JointBody* const next = &stage.bodies[body == nullptr ? stage.work[order[0]].mark : body->next];
@@ -199,7 +200,7 @@ void require_substeps(const StepSettings& settings, const SolverBodies& bodies, 
 inline constexpr int k_impulse_power = DETENT_FIXED ? 6 : 0;
 
 inline bool is_linear(const JointRow& row) { return !(row.axis == k_no_direction); }
-/// 0: linear row; 1: angular row.
+/// The kind of a row: 0 if it is linear, 1 if it is angular.
 inline int row_kind(const JointRow& row) { return is_linear(row) ? 0 : 1; }
 inline int row_kind(const JointRows& rows, uint32_t k) { return k < 3 && rows.points != 0 ? 0 : row_kind(rows.row[k]); }
 /// Index of the first row that is not one of the three rows of the anchor points.
@@ -214,7 +215,7 @@ inline int impulse_power([[maybe_unused]] const JointWork& work, [[maybe_unused]
 inline bool holds(const JointState& joint) {
   return joint.type != 0 && joint.type != static_cast<uint32_t>(JointType::filter);
 }
-/// Whether the free motion is an angle.
+/// Whether the free motion (a degree of freedom that the joint leaves) is an angle.
 bool is_angular(JointType type, int motion);
 /// Number of free motions that have their own settings (JointDef::axis, second). Settings beyond this number have no
 /// meaning, except the spring of a ball joint.
@@ -254,9 +255,9 @@ inline bool is_locked(const JointWork& work, uint32_t row) {
          (work.driven[1] == row && is_at_limit(work.mode[1]));
 }
 /// Activates each limit that the bodies, at their current velocities, would pass by more than k_passed. A motor or
-/// friction that acts with its greatest force gets a row again if it drives the motion beyond its target speed. While
-/// `loads` is true, it gets no row again: contacts and joints are solved in alternation, and the contacts may still
-/// load it in this substep. Returns whether a drive mode changed.
+/// friction that acts with its greatest force gets a row again if it drives the motion beyond its target speed.
+/// `loads`: the contacts will be solved again in this substep, and may still change the speed of the motion. Then a
+/// motor or friction gets no row again, and stays at its greatest force. Returns whether a drive mode changed.
 bool take_up(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, bool loads,
              JointWork& work);
 /// Whether a motor or friction of the joint acts with its greatest force, so that it may drive a motion beyond its
@@ -277,8 +278,9 @@ Real pull_of(const JointWork& work, const Vec3<Real>& impulse);
 inline Real zero_if_tiny(Real impulse) { return abs(impulse) < Real(0x1p-40) ? k_zero : impulse; }
 /// The reference mass of a joint's assembly, kg: masses and impulses of the assembly are divided by it.
 Scaled reference_mass(const SolverBodies& bodies, const JointStage& stage, const JointWork& work);
-/// JointWork::pull at the start of a tick, m/s, for the current number of substeps. It follows from the mean force of
-/// the joint in the last tick, but is at least the pull of the stored impulses, and at most twice that pull.
+/// JointWork::pull (the impulse in a substep divided by the mass of the lighter body) at the start of a tick, m/s, for
+/// the current number of substeps. It is computed from the mean force of the joint in the last tick. It is at least the
+/// pull of the stored impulses, which are the warm start, and at most twice that pull.
 Real last_pull(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                const JointWork& work);
 /// Sets JointWork::kept to the stored impulses, scaled to the current number of substeps. Range: choose_unit() has been
@@ -295,7 +297,8 @@ void store_impulses(uint32_t substeps, const JointWork& work, JointState& joint)
 void load_inertia(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointBody& body);
 /// Converts an angular momentum from the inertia of the substep to the body's own inertia, at equal angular velocity.
 Vec3<Real> own_angular_momentum(const JointBody& body, const Vec3<Real>& angular_momentum);
-/// The inverse of own_angular_momentum(). Overflow: clamps, and sets `saturated`.
+/// The inverse of own_angular_momentum(): converts from the body's own inertia to that of the substep. Overflow:
+/// clamps, and sets `saturated`.
 Vec3<Real> lent_angular_momentum(const JointBody& body, const Vec3<Real>& angular_momentum, bool& saturated);
 
 }  // namespace DETENT_NAMESPACE

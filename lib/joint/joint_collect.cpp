@@ -57,8 +57,8 @@ bool has_slide(const JointState& joint) {
   return type == JointType::slider || type == JointType::wheel;
 }
 
-/// An upper bound of the length of A's arm, m. With a slide, the arm reaches to B's anchor. `between`: from A's centre
-/// to B's, m.
+/// An upper bound of the length of A's arm, m. In a joint that slides (slider, wheel), A's arm reaches to B's anchor.
+/// `between`: from A's centre to B's, m.
 Real arm_of_a(const JointState& joint, const Vec3<Real>& between) {
   Real displacement = Real(0.0);
   if (has_slide(joint)) displacement = scale_by_power(absolute_sum(between) + absolute_sum(joint.anchor_b), 1);

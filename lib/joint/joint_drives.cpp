@@ -17,7 +17,7 @@ constexpr Real k_overdriven = 0x1p-10;
 /// be a rounding error: the impulse of a motor that pushes the joint against the limit is not in the limit's row.
 constexpr Real k_pulled = 0x1p-20;
 
-/// The response K of a single row, in the joint's unit of impulses.
+/// The response K of a single row: the change of its speed by a unit impulse, in the joint's unit of impulses.
 Scaled own_response(const SolverBodies& bodies, const JointStage& stage, const JointWork& work, const JointRow& row) {
   Scaled sum = Scaled(0.0);
   for (int end = 0; end < 2; ++end) {
@@ -40,7 +40,7 @@ int driving_axis(const JointState& joint, int i) {
   return static_cast<JointType>(joint.type) == JointType::ball ? 0 : i;
 }
 
-/// A position or speed of a free motion in the units of rows: an angle is multiplied by the joint's unit.
+/// A position or speed of a free motion in the units of rows: an angle is multiplied by the joint's unit of length.
 Real as_shown(const JointState& joint, const JointWork& work, int i, Real value) {
   return scale_by_power(value, is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0);
 }

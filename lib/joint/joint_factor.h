@@ -85,8 +85,8 @@ inline void show(const JointWork& work, uint32_t rows, uint32_t end, const Vec3<
   }
 }
 
-/// Limit of the impulse of a row in a solution. If an impulse exceeds the limit, all rows of the assembly become
-/// softer, and if that is not enough, all its impulses are scaled down.
+/// Limit of the impulse of a row in a solution, in the unit of the row. If an impulse exceeds the limit, all rows of
+/// the assembly become softer, and if that is not enough, all its impulses are scaled down.
 #if defined(DETENT_F64)
 inline constexpr Real k_solution_max = 0x1p24;
 #else
@@ -221,9 +221,9 @@ class JointFactor {
   void each_coupling(const JointWork& work, const Visit& visit) const {
     for (uint32_t at = work.coupling; at != k_no_link; at = stage_.couplings[at].next[0]) visit(stage_.couplings[at]);
   }
-  /// Visits the couplings of joint[0] of `coupling` that follow `coupling`. With each, passes the block that couples
-  /// joint[1] of both couplings, or null if there was no room for that block. Blocks are sorted by the elimination
-  /// order of joint[1].
+  /// Visits the couplings of joint[0] of `coupling` that follow `coupling`. With each of them, passes the block between
+  /// its joint[1] and the joint[1] of `coupling`, or null if there was no room for that block. Blocks are sorted by the
+  /// elimination order of joint[1].
   template <class Visit>
   void each_pair(const JointCoupling& coupling, const Visit& visit) {
     uint32_t between = stage_.work[coupling.joint[1]].coupling;

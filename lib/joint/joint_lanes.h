@@ -187,7 +187,8 @@ inline void fill_lanes(const JointWork& work, JointLanes& lanes) {
   }
 }
 
-/// A block of numbers: rows of a joint that is eliminated first x rows of a joint that is eliminated later.
+/// The block of a coupling of two joints. It has one row for each row of the joint that is eliminated first, and one
+/// column for each row of the joint that is eliminated later.
 template <bool wide>
 struct CouplingBlock {
   static constexpr uint32_t k_stride = wide ? k_row_room : k_rows_of_four;

@@ -19,8 +19,8 @@ Real twist_of(Unit sine, Unit cosine) {
 }
 
 /// Makes the rows of a joint at the current poses of its bodies. Each J has the columns (v_A, w_A, v_B, w_B). r_A and
-/// r_B are the arms from the centres to the anchors. u is the joint's unit, m; an angle times u is a length. For each
-/// row, with the angular parts -arm_A and arm_B of J,
+/// r_B are the arms from the centres to the anchors. u is the joint's unit of length, m; an angle times u is a length.
+/// For each row, with the angular parts -arm_A and arm_B of J,
 ///
 ///     K = J M^-1 J^T = 1/m_A + 1/m_B (linear rows only) + arm_A . I_A^-1 arm_A + arm_B . I_B^-1 arm_B
 struct RowMaker {
@@ -41,7 +41,7 @@ struct RowMaker {
     const Vec3<Unit> displacement = clamped_unit(real_from_unit(rows.arm[0], a.exponent) + gap, a.exponent);
     return {axis, {clamped_cross(displacement, axis), clamped_cross(rows.arm[1], axis)}};
   }
-  /// An angular row about a = `axis`:
+  /// An angular row about a = `axis`; u is the joint's unit of length:
   ///
   ///     C = angle u,  J = (0, -a u, 0, a u)
   JointRow angular(const Vec3<Unit>& axis) const {
@@ -72,13 +72,14 @@ struct RowMaker {
     rows.locked_rows = 3;
   }
   /// Locks the relative rotation q (`relative`) about one axis of A's joint frame. For a small rotation, twice the
-  /// vector part of q is the rotation vector. Therefore C = 2 q_axis u.
+  /// vector part of q is the rotation vector. Therefore C = 2 q_axis u, with the joint's unit of length u.
   void clamp_rotation(int axis, Unit part) {
     const Unit sine = relative.w < k_zero_unit ? -part : part;
     lock_angular(frame.column[axis], length_of(scale_by_power(real_from_unit(sine, 0), 1)));
   }
   /// Keeps the axis b, the axis number `axis` of B's joint frame, aligned with the same axis of A's joint frame. There
-  /// are two angular rows, about the other two axes of A's frame. With the components of b in A's frame:
+  /// are two angular rows, about the other two axes of A's frame. With the components of b in A's frame and the joint's
+  /// unit of length u:
   ///
   ///     C = -b_last u (row about the next axis),  C = b_next u (row about the last axis)
   void lock_axis(int axis) {
@@ -144,7 +145,7 @@ struct RowMaker {
     for (int i = 0; i < k_free_motions; ++i) free_angular(i, frame.column[i], k_zero);
   }
   /// Makes the rows of the three rotations about A's axes, for a spring. The values are the components of the rotation
-  /// vector from A's joint frame to B's, times u.
+  /// vector from A's joint frame to B's, times the joint's unit of length u.
   void free_turns_of_spring() {
     free_turns();
     const Real sign = relative.w < k_zero_unit ? Real(-1.0) : Real(1.0);  // q and -q are the same rotation

@@ -16,7 +16,8 @@ constexpr uint32_t k_gathers = 4;
 constexpr Scaled k_gathered_share = 0.015625;  ///< factor of the impulses, each time except the last
 /// Largest number of solves to find the drive modes of limits, motors and friction.
 constexpr uint32_t k_decisions = 12;
-/// After each of the first k_takings solves, limits and drives can be activated. Later they are only deactivated.
+/// After each of the first k_takings solves, limits can be activated, and motors and friction at their greatest force
+/// can get their rows again. Later, limits and rows are only removed.
 constexpr uint32_t k_takings = 3;
 
 /// The fraction of the position errors that a substep corrects. The speed of the correction is limited by
@@ -54,10 +55,11 @@ struct Solver {
   JointStage& stage;
   Span<const uint32_t> order;
   JointFactor factor;
-  bool touches;          ///< the island has contacts, which are solved in alternation with the joints
-  bool loads = touches;  ///< contacts are solved again in this substep, and may load drives
-  Real elapsed;          ///< time from the start of the tick to the start of the substep, s
-  Real enough;           ///< an assembly is not solved again if contacts changed no velocity by more than this, m/s
+  bool touches;  ///< the island has contacts, which are solved in alternation with the joints
+  /// Contacts will be solved again in this substep, so take_up() gives no motor or friction its row again.
+  bool loads = touches;
+  Real elapsed;  ///< time from the start of the tick to the start of the substep, s
+  Real enough;   ///< an assembly is not solved again if contacts changed no velocity by more than this, m/s
   /// x . (K + S) x of the last solution's impulses x, divided by the reference mass. It is a little more than x . K x,
   /// which is twice the energy of the impulses.
   Scaled own_energy = Scaled(0.0);
@@ -138,7 +140,7 @@ struct Solver {
     }
   }
   /// Sets the velocities of the mobile bodies, from which the rows' speeds are computed. These velocities include the
-  /// impulses without a row that have not been applied yet.
+  /// constant impulses that have not been applied yet: those of motors at their greatest force and of soft springs.
   DETENT_SHARED void load_motions() {
     each_mobile([&](JointBody& body) {
       const BodyMotion& motion = bodies.motions[body.slot];
@@ -261,7 +263,8 @@ struct Solver {
     return turns;
   }
 
-  /// Makes the factor of the joints' rows, with the current drive modes. `first`: for the first solve of a substep.
+  /// Makes the factor of the joints' rows, with the current drive modes. In the first solve of a substep (`first`),
+  /// also applies the warm start.
   void make_factor(bool first) {
     each_joint([&](JointWork& work) { add_driven_rows(settings, bodies, stage, work); });
     factor.make();
@@ -309,8 +312,8 @@ struct Solver {
     each_joint([&](JointWork& work) { count_in(work); });
   }
 
-  /// Activates limits and drives, by the velocities that include the impulses of the last solve. Returns whether a
-  /// drive mode changed.
+  /// Calls take_up() for each joint, with velocities that include the impulses of the last solve: activates limits, and
+  /// gives motors and friction their rows again. Returns whether a drive mode changed.
   bool take_up_drives() {
     bool open = false;
     each_joint([&](const JointWork& work) {
@@ -356,7 +359,8 @@ struct Solver {
       factor.saturated = before;
     }
   }
-  /// Scales the impulses down until they fit. Returns the number of times that they were scaled.
+  /// Scales the impulses down until they and the velocity changes of the bodies are in range. Returns the number of
+  /// times that they were scaled.
   uint32_t gather_less() {
     uint32_t lessened = 0;
     const Real most = greatest_impulse();
@@ -425,7 +429,7 @@ struct Solver {
   /// Applies the impulses of the last substep to the rows that always act, scaled down until they add no energy. The
   /// solve then computes only the change of these impulses. Therefore the rows of a mechanism at rest do not yield by
   /// their softness, however large the forces are. If an impulse is beyond its range, none are applied. Range: no
-  /// impulses without a row are pending.
+  /// constant impulses of motors or soft springs are pending (push()).
   void warm_start() {
     each_joint([&](JointWork& work) {
       for (uint32_t k = 0; k < work.rows; ++k) work.impulse[k] = k < work.locked_rows ? work.kept[k] : k_zero;
@@ -557,7 +561,7 @@ struct Solver {
 
   /// The largest y in [0, 1] for which the impulses y x add at most an energy of opposed^2 / (2 own), that is, for
   /// which y^2 own + 2 y shared <= opposed^2 / own. `own`: twice the energy of the impulses x, x . K x. `shared`: the
-  /// product x . J v with the current motion. `opposed`: this product with the motion before the projection.
+  /// product x . J v with the current motion. `opposed`: the product x . J v with the motion before the projection.
   DETENT_SHARED static Scaled share_within(Scaled own, Scaled shared, Scaled opposed) {
     const Scaled one = 1.0;
     const Scaled root = square_root(add(multiply(shared, shared), multiply(opposed, opposed)));
@@ -717,8 +721,8 @@ struct Solver {
       work.force_sum += impulse;
       add_torques(work);
       for (uint32_t k = 0; k < work.locked_rows; ++k) work.kept[k] = zero_if_tiny(work.kept[k] + work.total[k]);
-      // At most twice the pull at the start of follow(): curved paths give redundant rows contradictory targets, and
-      // these rows then pull against each other as hard as their softness permits.
+      // The pull is at most twice its value at the start of follow(): curved paths give redundant rows contradictory
+      // targets, and these rows then pull against each other as hard as their softness permits.
       work.pull = min(pull_of(work, impulse), scale_by_power(work.pull, 1));
     });
     restore_inertias();

@@ -22,7 +22,8 @@ constexpr uint32_t k_least = 2;
 /// Least number of substeps for islands with loops of joints, because a body that hangs from two points may be taut
 /// between them.
 constexpr uint32_t k_least_of_loops = 3;
-/// Least number of substeps for islands with joints and contacts, because their impulses converge over the substeps.
+/// Least number of substeps for islands with joints and contacts, because the impulses of joints and contacts converge
+/// to each other over the substeps.
 constexpr uint32_t k_least_with_contacts = 4;
 /// Squared number of substeps per squared radian of rotation in a tick: a substep for each 0.2 rad.
 constexpr Scaled k_needed_by_bend = 25.0;

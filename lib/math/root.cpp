@@ -71,8 +71,8 @@ uint64_t square_root_nearest(Words128 value) {
   const uint64_t head = root_of_normal(high, rest);
   const uint64_t numerator_high = rest >> 32;  // rest <= 2 head < 2^33: 0 or 1
   const uint64_t numerator = (rest << 32) | (low >> 32);
-  // The numerator has up to 65 bits, so numerator and divisor are halved. The bit that the numerator loses counts in
-  // the remainder.
+  // The numerator has up to 65 bits, so numerator and divisor are halved. digit_rest, the remainder, is computed from
+  // the whole numerator, so it includes the bit that the halved numerator loses.
   uint64_t digit = ((numerator_high << 63) | (numerator >> 1)) / head;
   uint64_t digit_rest = numerator - digit * (2 * head);
   if (digit >> 32 != 0) {
@@ -97,7 +97,7 @@ uint64_t square_root_nearest(Words128 value) {
     return up && root != UINT64_MAX ? root + 1 : root;
   }
   // The root of the unshifted value is rounded. There are no ties, because (m + 1/2)^2 is not an integer for any
-  // integer m. So the highest bit that the shift drops decides.
+  // integer m. So the highest bit that the shift drops decides whether the root is rounded up.
   return (root >> half_shift) + ((root >> (half_shift - 1)) & 1);
 }
 

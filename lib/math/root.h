@@ -13,16 +13,18 @@ uint32_t square_root_nearest(uint64_t value);
 /// Source: Zimmermann, "Karatsuba Square Root", INRIA RR-3805, 1999 (one step).
 uint64_t square_root_nearest(Words128 value);
 
-/// An approximation of 2^47 / sqrt(value), that is of 1 / sqrt(value 2^-32) in Q1.31. Range: value in [2^30, 2^32).
+/// An approximation of 2^47 / sqrt(value), which is 1 / sqrt(value 2^-32) in Q1.31. Range: value in [2^30, 2^32).
 /// Overflow: saturates at 2^32 - 1. Error: k_reciprocal_root_error.
 uint32_t reciprocal_root(uint32_t value);
-inline constexpr double k_reciprocal_root_error = 1.0;  ///< in units of 2^-31; a result is in (1, 2]
+/// Largest error of reciprocal_root(), in units of 2^-31. The result of reciprocal_root() is in (1, 2].
+inline constexpr double k_reciprocal_root_error = 1.0;
 
 /// The unit vector along v, Q2.30. Range: the largest component of v within [2^29, 2^30] in magnitude.
 /// Rounding: each component within k_normalise_error; the length within k_normalise_length_error.
 Vec3<int32_t> unit_vector_raw(const Vec3<int32_t>& v);
 
-/// A minimax cubic of 1/sqrt(value 2^-32), Q3.29, relative error below 2^-7.1. Range: value in [2^30, 2^32).
+/// A minimax cubic approximation of 1/sqrt(value 2^-32), Q3.29. Relative error: below 2^-7.1.
+/// Range: value in [2^30, 2^32).
 constexpr uint32_t reciprocal_root_guess(uint32_t value) {
   const auto high = [value](uint32_t b) { return static_cast<uint32_t>((uint64_t{value} * b) >> 32); };
   return 0x639898a5 - high(0xbd264567 - high(0xc75be3d4 - high(0x4e07e417)));

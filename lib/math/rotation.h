@@ -52,12 +52,14 @@ Quat rotation_from_vector(const Vec3<Real>& theta);
 Vec3<Real> rotation_vector_from(const Quat& q);
 
 // Largest errors, in steps (k_unit_step). A quaternion or axis whose length is not exactly 1 causes further errors.
-inline constexpr double k_normalise_quat_error = 4.0;  ///< of |q| after normalise(), if | |q|^2 - 1 | < 2^-10 before
+/// Error of |q| after normalise(), if | |q|^2 - 1 | < 2^-10 before.
+inline constexpr double k_normalise_quat_error = 4.0;
 /// Error of a component of a rotated vector v, |v| <= 1. For a Real vector of any length, the unit of this error is
 /// 2^-46 in fixed point, and a step times the least power of two above |v| in float.
 inline constexpr double k_rotate_error = 4.0;
-inline constexpr double k_rotation_error = 4.0;  ///< of a component of rotation_from_vector(); float: x (1 + |theta|)
-inline constexpr double k_rotation_vector_error = 10.0;  ///< of a component of rotation_vector_from()
+/// Error of a component of the result of rotation_from_vector(). In float, the error is this times (1 + |theta|).
+inline constexpr double k_rotation_error = 4.0;
+inline constexpr double k_rotation_vector_error = 10.0;  ///< error of a component of rotation_vector_from()
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

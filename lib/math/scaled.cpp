@@ -51,8 +51,8 @@ uint64_t add(uint64_t a_word, uint64_t b_word) {
   const Scaled small = a.exponent < b.exponent ? a : b;
   const int shift = large.exponent - small.exponent;
   if (shift > 33) return word_of(large);
-  // The sum is computed with 31 more fraction bits. The last of them is sticky: it also stands for the lower bits that
-  // the smaller number loses in the shift.
+  // The sum is computed with 31 fraction bits more than the mantissa of the larger number has. The last of these bits
+  // is sticky: it also stands for the lower bits that the smaller number loses in the shift.
   const int64_t head = int64_t{small.mantissa} * (int64_t{1} << 31);
   const int64_t shifted = head >> shift;
   const int64_t sticky = shifted * (int64_t{1} << shift) != head ? 1 : 0;

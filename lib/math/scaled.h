@@ -14,9 +14,9 @@ inline namespace DETENT_NAMESPACE {
 #if DETENT_FIXED
 inline constexpr int k_scaled_exponent_max = 256;
 
-/// The functions below this namespace, for integers instead of structs. A Scaled is passed as one 64-bit word, because
-/// most calling conventions of 32-bit machines pass a struct of two words through memory. A Real is passed as its raw
-/// integer.
+/// The same functions as below this namespace, but with integers in place of structs. A Scaled is passed as one 64-bit
+/// word, because most calling conventions of 32-bit machines pass a struct of two words through memory. A Real is
+/// passed as its raw integer.
 namespace words {
 uint64_t scaled_from_parts(bool negative, uint64_t mantissa, int exponent);
 uint64_t scaled_from(int64_t raw, int frac);

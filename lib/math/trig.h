@@ -44,18 +44,19 @@ Real radians(Angle angle);
 Angle arc_tangent(Unit y, Unit x);
 
 #if DETENT_FIXED
-inline constexpr double k_sine_error = 0.67;  ///< in steps (k_unit_step); the exhaustive test finds 0.6615
+/// Largest error of a sine or cosine, in steps (k_unit_step). The exhaustive test finds 0.6615.
+inline constexpr double k_sine_error = 0.67;
 #elif defined(DETENT_F32)
 inline constexpr double k_sine_error = 0.52;
 #else
 inline constexpr double k_sine_error = 2.0;
 #endif
 #if DETENT_FIXED
-inline constexpr double k_arc_tangent_error = 0.75;  ///< in units of 2^-32 turns
+inline constexpr double k_arc_tangent_error = 0.75;  ///< error of arc_tangent(), in units of 2^-32 turns
 #elif defined(DETENT_F32)
 inline constexpr double k_arc_tangent_error = 1.0;
 #else
-inline constexpr double k_arc_tangent_error = 6.0;  ///< in units of 2^-53 rad
+inline constexpr double k_arc_tangent_error = 6.0;  ///< error of arc_tangent(), in units of 2^-53 rad
 #endif
 
 }  // namespace DETENT_NAMESPACE

@@ -21,7 +21,7 @@ inline bool is_awake(const BodyProperties& properties, const BodyActivity& activ
 bool is_moving(const BodyProperties& properties, const BodyMotion& motion, const BodyActivity& activity);
 
 /// Wakes all bodies that fell asleep together with the body in `slot`, sets their bits in `active`, and records a
-/// `woke` event for each. Returns the number of bodies; 0 if the body is awake.
+/// `woke` event for each. Returns the number of bodies that it wakes; 0 if the body in `slot` is awake.
 uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities, BitSet active);
 
 /// Counts for each body the ticks in a row in which it was at rest. Puts an island to sleep, and sets its velocities to

@@ -50,7 +50,7 @@ int odd_axis(const Scaled (&inverse_inertia)[3]) {
 }
 
 /// Returns `rotation` rotated for `time`, s, with the constant `angular_velocity`: m/s at the radius 2^exponent m,
-/// world axes.
+/// world axes. Sets `clamped` if a component of the rotation vector is clamped by angle_of().
 Quat turned(const Quat& rotation, const Vec3<Real>& angular_velocity, int exponent, Real time, bool& clamped) {
   const Vec3<Real> angle = {angle_of(angular_velocity.x * time, exponent, clamped),
                             angle_of(angular_velocity.y * time, exponent, clamped),

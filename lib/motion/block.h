@@ -31,8 +31,8 @@ inline constexpr int64_t k_factor_max = int64_t{1} << 26;
 /// Limit of the elements of L D in the factor L D L^T of a contact's rows.
 inline constexpr int64_t k_row_max = int64_t{1} << 24;
 inline constexpr int k_mantissa_bits = 24;  ///< bits of a mantissa of a velocity or displacement
-inline constexpr int k_number_bits = 24;    ///< bits of an impulse; a sum of four impulses is still a factor
-inline constexpr int k_wrench_bits = 25;    ///< bits of each part of a wrench
+inline constexpr int k_number_bits = 24;    ///< bits of an impulse; a sum of four impulses is still within k_factor_max
+inline constexpr int k_wrench_bits = 25;    ///< bits of each component of a wrench
 /// The least shift of a block: the finest step of a block is 2^-37 m/s or m. Must exceed k_angular_velocity_power.
 inline constexpr int k_shift_min = 9;
 /// The solver stores angular velocities times 2^-k_angular_velocity_power, because the angular velocity of a slender
@@ -45,27 +45,27 @@ inline constexpr int k_bits_power = k_angular_velocity_power - k_mantissa_bits;
 inline constexpr int k_number_drop = k_number_bits + k_bits_power;
 static_assert(k_angular_velocity_power <= k_shift_min - k_bits_power && k_number_drop <= k_shift_min - k_bits_power);
 
-/// Clamps to the range of a factor.
+/// Clamps `a` to +-k_factor_max, the range of a factor.
 DETENT_SHARED inline Factor held(Ulps a) {
   return static_cast<Factor>(a < -k_factor_max ? -k_factor_max : a > k_factor_max ? k_factor_max : a);
 }
 
 class Block {
  public:
-  /// Makes settle() choose a block in which the components of `v` 2^exponent fit as mantissas. Range: exponent from 0
-  /// to k_angular_velocity_power.
+  /// Makes settle() choose a block in which the components of `v` 2^exponent have at most k_mantissa_bits bits. Range:
+  /// exponent from 0 to k_angular_velocity_power.
   DETENT_SHARED void include(const Vec3<Real>& v, int exponent) {
     bits_ |= (magnitude_64(v.x.raw) | magnitude_64(v.y.raw) | magnitude_64(v.z.raw)) >>
              (k_angular_velocity_power - exponent);
   }
-  /// Makes settle() choose a block in which the first `used` values fit as numbers.
+  /// Makes settle() choose a block in which each of the first `used` values has at most k_number_bits bits.
   DETENT_SHARED void include(const Real* values, uint32_t used) {
     uint64_t all = 0;
     for (uint32_t i = 0; i < used; ++i) all |= magnitude_64(values[i].raw);
     bits_ |= all >> k_number_drop;
   }
-  /// Makes settle() choose a block in which a speed fits as a number. This speed is `speed` 2^exponent or `most`,
-  /// whichever is less. `speed` is a number of block `from`. Range: `speed` and `most` are >= 0.
+  /// Makes settle() choose a block in which a speed has at most k_number_bits bits. This speed is `speed` 2^exponent or
+  /// `most`, whichever is less. `speed` is a number of the block `from`. Range: `speed` and `most` are >= 0.
   void include_speed(Factor speed, const Block& from, int exponent, Real most) {
     if (speed == 0) return;
     const int bits = bit_length_64(static_cast<uint64_t>(speed)) + from.shift_ + exponent;
@@ -111,8 +111,8 @@ class Block {
               Real::from_raw(round_shift_64(z, n))};
     return {Real::from_raw(shift_64(x, -n)), Real::from_raw(shift_64(y, -n)), Real::from_raw(shift_64(z, -n))};
   }
-  /// Makes the block's power of two as large as is necessary for all `parts` to fit in k_wrench_bits, and rounds the
-  /// parts to it.
+  /// Increases the block's power of two until all `parts`, the components of a wrench, have at most k_wrench_bits bits,
+  /// and rounds the parts to multiples of it.
   template <unsigned count>
   void coarsen(Ulps (&parts)[count]) {
     uint64_t all = 0;

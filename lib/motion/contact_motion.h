@@ -16,11 +16,12 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The parts of a motion or of a wrench: linear along the normal and the tangents, then angular about them.
+/// The components of a motion or of a wrench in the contact frame: linear ones along the normal and the two tangents,
+/// then angular ones about them.
 enum Part { k_along_normal, k_along_first, k_along_second, k_about_normal, k_about_first, k_about_second, k_parts };
 
-/// Index of element (i, k) of the symmetric response matrix: the effect of part `k` of a wrench on part `i` of the
-/// motion.
+/// Index of element (i, k) of the symmetric response matrix: the effect of component `k` of a wrench on component `i`
+/// of the relative motion (both are values of Part).
 constexpr int response_index(int i, int k) { return i < k ? k * (k + 1) / 2 + i : i * (i + 1) / 2 + k; }
 
 constexpr int k_responses = response_index(k_parts - 1, k_parts - 1) + 1;

@@ -16,7 +16,8 @@ Vec3<Real> local_angular_velocity(const BodyProperties& properties, const Vec3<R
           multiply(angular_momentum.z, properties.inverse_inertia[2], saturated)};
 }
 
-/// Limit of the passes in clamp_speeds(); enough, because inverse inertias are far below 4^64.
+/// The largest number of passes of the loop in clamp_speeds(). It is enough, because inverse inertias are far below
+/// 4^64.
 constexpr int k_quarterings_max = 64;
 
 /// Whether the angular velocity is far below its limit for any orientation of the body.
@@ -111,7 +112,8 @@ void store_contacts(Span<const ContactWork> work, Span<const ManifoldState> mani
     if (place.body_a != state.body_a || place.body_b != state.body_b || place.part != state.part) break;
     put(same, awake[same]);
   }
-  // Moves the contacts of sleeping bodies together, beginning at the index of the first awake contact.
+  // Moves the later contacts of sleeping bodies together, beginning at the index of the first awake contact that is new
+  // or was removed.
   uint32_t kept = same < awake_count ? awake[same] : before;
   for (uint32_t i = same; i < awake_count; ++i) {
     const uint32_t end = i + 1 < awake_count ? awake[i + 1] : before;

@@ -9,7 +9,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// Starts the tick of a body: initialises its BodyWork. Returns the sum of the magnitudes of the components of its
-/// angular velocity, m/s; 0 for a non-colliding body.
+/// angular velocity, in m/s at the radius 2^size_exponent m; 0 for a non-colliding body.
 Real start_body(const StepSettings& settings, const BodyProperties& properties, const BodyPose& pose,
                 const BodyMotion& motion, BodyWork& work);
 
@@ -27,9 +27,9 @@ inline Real speculative_distance(const StepSettings& settings, Real extent, Real
 void predict(const StepSettings& settings, Span<const BodyProperties> properties, Span<const uint32_t> bodies,
              Span<BodyMotion> motions, Span<BodyWork> work);
 
-/// Starts the tick of bodies. Computes bounds that contain each body on its predicted motion in this tick, enlarged by
-/// WorldDef::contact_margin times bounds_extent(). A non-colliding body gets empty bounds, a half-space unbounded
-/// bounds.
+/// Starts the tick of the given bodies (start_body()). Sets the bounds of each body so that they contain it on its
+/// predicted motion in this tick, enlarged by WorldDef::contact_margin times bounds_extent(). A non-colliding body gets
+/// empty bounds, a half-space unbounded bounds.
 void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyProperties> properties,
            Span<const BodyMotion> motions, Span<const uint32_t> bodies, Span<BodyWork> work, Span<Bounds> bounds);
 

@@ -13,7 +13,8 @@ namespace {
 /// contacts.
 constexpr Unit k_dynamic_damping = 0.7, k_static_damping = 0.5;
 
-/// Limit of the softness of a row / the row's response. Contacts with softer settings are made stiffer.
+/// The largest ratio of the softness of a contact's row to the row's response to a unit impulse. Contacts with softer
+/// settings are made stiffer.
 constexpr Real k_contact_softness_max = 15.0;
 
 /// Computes a Softness. `contact_frequency`: frequency of the spring / substep rate. `damping_ratio`: 1 is critical.

@@ -15,7 +15,7 @@ inline namespace DETENT_NAMESPACE {
 /// Source: Catto, "Soft Constraints", GDC 2011.
 struct Softness {
   Unit rate;           ///< fraction of the overlap that is corrected in a substep
-  Unit spring_eighth;  ///< softness of a row / (8 K), with the row's response K to a unit impulse
+  Unit spring_eighth;  ///< softness of a row / (8 K), where K is the row's response to a unit impulse
 };
 
 /// The world's settings in the form that the stages use, derived once per step.
@@ -39,9 +39,9 @@ struct StepSettings {
   static constexpr Team* team = nullptr;
 #endif
   Real tick_time;          ///< s
-  Real contact_frequency;  ///< of WorldDef
-  Real damping_ratio;      ///< of WorldDef
-  uint32_t substeps;       ///< set_substeps() sets the members from here to static_softness
+  Real contact_frequency;  ///< WorldDef::contact_frequency
+  Real damping_ratio;      ///< WorldDef::damping_ratio
+  uint32_t substeps;       ///< per tick; set_substeps() sets this member and those up to static_softness
   bool jointed;            ///< the island has joints
   Real time;               ///< length of a substep, s
   Scaled rate;             ///< substeps per second
@@ -51,7 +51,7 @@ struct StepSettings {
   /// The gap, m, that a speed of 2^15 m/s closes in a substep.
   Real gap_max;
   Softness dynamic_softness;  ///< contacts between two dynamic bodies
-  Softness static_softness;   ///< all other contacts: twice the frequency and less damping than dynamic_softness
+  Softness static_softness;   ///< all other contacts: twice the frequency and a lower damping ratio
   Unit relaxation;
   Vec3<Real> gravity;  ///< m/s^2
   /// Magnitude of gravity, m/s^2, but at least 1. Used to derive limits of speeds.
@@ -62,8 +62,8 @@ struct StepSettings {
   Real sunk;
   /// Contact margin, as a fraction of the smaller body's extent.
   Real contact_margin;
-  /// Greatest motion at which a manifold is recycled, as a fraction of the smaller body's extent; 0: contact points
-  /// are found anew in each tick.
+  /// Greatest relative motion of a pair at which its contact points are recycled, as a fraction of the smaller body's
+  /// extent; 0: contact points are found anew in each tick.
   Real contact_recycle_distance;
 };
 
@@ -72,7 +72,7 @@ struct StepSettings {
 inline constexpr uint32_t k_jointed_stiffness = 24;
 
 StepSettings step_settings(const WorldState& world);
-/// Returns the settings with the given `team`.
+/// Returns the settings with `team` as the threads that share loops (StepSettings::team).
 #if DETENT_TASKS
 inline StepSettings shared_settings(const StepSettings& settings, Team* team) {
   StepSettings shared = settings;

@@ -36,8 +36,9 @@ bool push_out_of_terrain(const World& world, const QueryHit& hit, const Shape& c
   return true;
 }
 
-/// For a body that overlaps even the shrunken core: sets `normal` and `depth`, m, of the overlap with the core. For a
-/// compound, they are those of the part with the deepest overlap. Returns false if no overlap is found.
+/// For a body that overlaps even the mover's shrunken core (k_core_power): sets `normal` and `depth`, m, of the overlap
+/// with the core. For a compound, they are those of the part with the deepest overlap. Returns false if no overlap is
+/// found.
 bool push_out(const World& world, BodyId body, const Shape& core, const Pose& at, Vec3<Unit>& normal, Real& depth) {
   const StateView<const uint8_t> state = view_of(world);
   const BodyProperties& properties = state.properties[body.slot - 1];
@@ -160,7 +161,7 @@ void MoverMotion::add_near(const QueryHit& hit, const Shape& core) {
   if (on_terrain) add_terrain(hit);
 }
 
-/// Finds the planes of nearby bodies and the free radius of the mover.
+/// Finds the planes of the bodies near the mover, and sets `free_radius_`.
 void MoverMotion::look_around() {
   if (known_ || status_ != Status::ok) return;
   known_ = true;
@@ -197,7 +198,8 @@ bool MoverMotion::passes(const QueryHit& hit, const Vec3<Real>& displacement) co
 }
 
 /// Moves along `displacement` until only the gap to the first obstacle is left, and keeps the plane of that obstacle.
-/// If the mover is stuck, casts only its core. Range: `displacement` is at least k_mover_still long.
+/// If the mover is stuck (caught()), casts only its shrunken core. Range: `displacement` is at least k_mover_still
+/// long.
 void MoverMotion::step_along(const Vec3<Real>& displacement) {
   const Real core = scale_by_power(settings_.radius, k_core_power);
   CastQuery query;
@@ -296,7 +298,8 @@ Vec3<Real> MoverMotion::slide(Vec3<Real> displacement, MoverGait gait) {
     step_along(next);
     const Vec3<Real> gone = real_difference(position_, from);
     displacement -= gone;
-    if (gait == MoverGait::walk) displacement -= up_ * dot(displacement, up_);  // keeps the rise over floors
+    // The rest becomes horizontal, so that the next round does not undo a rise over a floor.
+    if (gait == MoverGait::walk) displacement -= up_ * dot(displacement, up_);
     if (within(displacement, k_mover_still) || (within(gone, k_mover_still) && hit_count_ == hits_before))
       return displacement;
   }

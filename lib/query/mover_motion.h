@@ -22,19 +22,20 @@ class MoverMotion {
   /// ok, or the status of the last query that failed.
   Status status() const { return status_; }
 
-  /// From now on the mover passes through this body. Null: through no body.
+  /// From now on the mover passes through this body. If `body` is null, it passes through no body.
   void pass(BodyId body) {
     passed_ = body;
     known_ = false;
   }
   /// Moves by `displacement`, sliding along obstacles. Returns the part of the displacement that is left.
   Vec3<Real> slide(Vec3<Real> displacement, MoverGait gait);
-  /// Moves along `displacement`, without sliding, until only the gap is left to the first obstacle.
+  /// Moves along `displacement`, without sliding, until only the gap (MoverSettings::gap) is left to the first
+  /// obstacle.
   void go(const Vec3<Real>& displacement);
   /// Moves away from bodies that are nearer than the gap. Stores the remaining overlap in the report.
   void recover();
-  /// The plane of the floor that the mover stands on, or null. It may be the edge of a floor; its normal may then be
-  /// steeper than that of a floor.
+  /// The plane of the floor that the mover stands on, or null. The plane may belong to the edge of a floor. It may then
+  /// be steeper than a floor.
   const MoverPlane* find_floor();
   /// Steps over an obstacle: moves up, forward along `rest`, and down to a floor. If that fails, restores the position
   /// and returns false.
@@ -71,10 +72,12 @@ class MoverMotion {
   BodyId passed_ = {};
   Status status_ = Status::ok;
   MoverPlane planes_[k_mover_planes_max];
-  uint32_t hit_count_ = 0;    ///< number of planes hit during the motion; they come first in `planes_`
-  uint32_t plane_count_ = 0;  ///< number of all planes in `planes_`; those of nearby bodies follow
-  bool known_ = false;        ///< the planes of nearby bodies are valid for the position
-  Real free_radius_;  ///< radius, m, of the thickest capsule, up to the mover's, with half the gap to all bodies
+  uint32_t hit_count_ = 0;  ///< number of planes hit during the motion; they come first in `planes_`
+  /// Number of all planes in `planes_`. The planes of nearby bodies come after those hit during the motion.
+  uint32_t plane_count_ = 0;
+  bool known_ = false;  ///< the planes of nearby bodies are valid for the position
+  /// Radius, m, of the thickest capsule that keeps half the gap to all bodies; at most the mover's radius.
+  Real free_radius_;
 };
 
 }  // namespace DETENT_NAMESPACE

@@ -39,11 +39,11 @@ inline constexpr Real k_mover_still = Real(0x1p-15);
 inline constexpr Real k_mover_still = Real(0x1p-20);
 #endif
 
-/// Returns the displacement nearest to `wish` that keeps the gap to every plane; zero always satisfies this. A floor
-/// changes the displacement only along `up`, so the horizontal part of the displacement stays; in MoverGait::fall, the
-/// edge of a floor does so too. Other planes change the displacement according to the gait. Bit i of `touched` is set
-/// if plane i changed it. Source: Hildreth, "A quadratic programming procedure", 1957; for corrections that are not
-/// along the normal, Cottle, Pang, Stone, "The Linear Complementarity Problem", 5.2.
+/// Returns the displacement nearest to `wish` that keeps the gap to every plane. A zero displacement always keeps it. A
+/// floor changes the displacement only along `up`, so the horizontal part of the displacement stays. In
+/// MoverGait::fall, the edge of a floor acts like a floor. Other planes change the displacement according to the gait.
+/// Bit i of `touched` is set if plane i changed it. Source: Hildreth, "A quadratic programming procedure", 1957; for
+/// corrections that are not along the normal, Cottle, Pang, Stone, "The Linear Complementarity Problem", 5.2.
 Vec3<Real> slide_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, const Vec3<Unit>& up, MoverGait gait,
                          uint32_t& touched);
 

@@ -48,8 +48,8 @@ bool cast_at_terrain(const QueryBodies& bodies, uint32_t slot, const QueryShape&
   return !asked || touched;
 }
 
-/// Sets `first` to the earliest hit on a part of the body, or to an undecided result if that is earlier; its outcome is
-/// clear if there is neither. Returns false if a part could not be tested.
+/// Sets `first` to the earliest hit on a part of the body, or to an undecided result if that is earlier. If there is
+/// neither, sets first.outcome to `clear`. Returns false if a part could not be tested.
 bool first_impact(const QueryBodies& bodies, const BodyProperties& properties, const Motion& still,
                   const QueryShape& shape, const Motion& motion, TimeOfImpact& first) {
   first.outcome = ToiOutcome::clear;

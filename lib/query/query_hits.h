@@ -7,8 +7,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// The order of the hits on bodies, and of the hits on the triangles of one terrain. Of two equally near hits, a
-/// decided hit comes before an undecided one. Therefore a body need not be tested if it is certainly not nearer than a
-/// decided hit, and would come after that hit at equal distance.
+/// decided hit comes before an undecided one (QueryHit::undecided). Therefore a body need not be tested if it is
+/// certainly not nearer than a decided hit, and would come after that hit at equal distance.
 struct HitOrder {
   bool operator()(const QueryHit& a, const QueryHit& b) const;
 };

@@ -21,7 +21,8 @@ struct TriangleSearch {
   const AskedSurface& ground;
   const QueryShape& shape;
   TerrainPlace place = {};
-  Placed alone = {};          ///< the shape alone in a block, with the shape's own unit of length
+  /// The shape alone in integer coordinates: in the terrain's axes, in 2^-30 of the shape's own unit of length.
+  Placed alone = {};
   int64_t ball = 0;           ///< bounding radius of a shape that rotates, else 0; in 2^-46 m, as the next members
   int64_t radius = 0;         ///< radius of the ball that rounds the shape, plus a margin for errors
   Vec64 low = {}, high = {};  ///< bounds of the shape relative to its centre
@@ -92,7 +93,7 @@ struct TriangleSearch {
         search.ground.terrain, {held(low.x), held(low.y), held(low.z)}, {held(high.x), held(high.y), held(high.z)},
         [](void* context, uint32_t triangle) { ask(*static_cast<Search*>(context), triangle); }, &search);
   }
-  /// Tests a triangle unless the search rules it out.
+  /// Tests a triangle for a hit, unless rules_out() shows that it is not needed.
   template <class Search>
   static void ask(Search& search, uint32_t index) {
     const AskedSurface& ground = search.ground;

@@ -53,9 +53,10 @@ uint64_t& RollbackSession::stamp_of(uint32_t player, uint64_t tick) const {
   return stamps_[place(tick) * def_.players + player];
 }
 
-/// Returns the first tick whose inputs another machine may still need: two windows before the present tick or before
-/// known_tick(), whichever is earlier, but not before the session's start. known_tick() can be after the present tick:
-/// with a delay, or without local players, inputs may be known for ticks that are not simulated yet.
+/// Returns the first tick whose inputs another machine may still need: two rollback windows (RollbackDef::window)
+/// before the present tick or before known_tick(), whichever is earlier, but not before the session's start.
+/// known_tick() can be after the present tick: with a delay, or without local players, inputs may be known for ticks
+/// that are not simulated yet.
 uint64_t RollbackSession::oldest() const {
   const uint64_t known = known_tick(), back = 2 * uint64_t{def_.window};
   const uint64_t now = known < tick_ ? known : tick_;

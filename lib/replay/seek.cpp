@@ -66,7 +66,7 @@ Status Player::load_keyframe(World& world, const Place& place) {
 }
 
 /// Sets the world to the latest state at or before `tick` that can be reached without playing a tick: a keyframe, the
-/// seed or the current state.
+/// seed (the first state of the recording) or the current state.
 Status Player::approach(World& world, uint64_t tick) {
   const bool here = state_ == State::playing && tick >= tick_ && get_info(world).tick == tick_;
   if (source_.seek == nullptr) {

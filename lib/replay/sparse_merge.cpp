@@ -199,7 +199,8 @@ bool SparseTick::merge(const StateView<uint8_t>& block) {
         if (has_manifolds) block.manifolds[k] = after.manifolds[i];
       });
 
-  // The run also finds pairs of a sensor and a body that are both visible but not inside. Removes these pairs.
+  // The run also finds pairs of a sensor and a body that it reads but does not simulate: both are visible, neither is
+  // inside. These pairs are removed.
   uint32_t sensed = 0;
   for (uint32_t i = 0; i < block.world.sensed_count; ++i) {
     const SensedState pair = block.sensed[i];
@@ -243,7 +244,8 @@ bool SparseTick::merge_events(const WorldHooks& hooks, StepReport& report) const
   const auto is_before = [](uint32_t a, uint32_t b, uint32_t other_a, uint32_t other_b) {
     return a != other_a ? a < other_a : b < other_b;
   };
-  // The run also raises events of a sensor and a body that are both visible but not inside. Removes these events.
+  // The run also raises events of a sensor and a body that it reads but does not simulate: both are visible, neither is
+  // inside. These events are removed.
   const Span<SensorEvent> sensed = room_of(hooks.sensor_events);
   uint32_t kept = 0;
   for (uint32_t i = 0; i < events.sensor; ++i) {

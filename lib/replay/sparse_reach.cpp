@@ -12,7 +12,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Whether two worlds have the same settings and tick: all of WorldState but counts, `free_word` and `idle`.
+/// Whether two worlds have the same settings and tick: compares all of WorldState except the counts, `free_word` and
+/// `idle`.
 bool has_same_settings(const WorldState& a, const WorldState& b) {
   WorldState other = b;
   other.body_count = a.body_count;
@@ -133,7 +134,7 @@ void SparseTick::add(uint32_t slot) {
   if (is_different || record.movers.has(slot)) list[count++] = slot;
 }
 
-/// Whether one of the bodies in `list` with an index in [from, end) reaches the body `slot`.
+/// Whether one of the simulated bodies list[from], ..., list[end - 1] reaches the body `slot`.
 bool SparseTick::meets(uint32_t slot, uint32_t from, uint32_t end) const {
   const bool acts = can_act(slot);
   for (uint32_t i = from; i < end; ++i) {

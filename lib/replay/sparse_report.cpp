@@ -9,7 +9,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Replaces the contribution of the bodies inside, `base`, by `made` in a count of a step of the whole world.
+/// In `total`, a count of a step of the whole world, replaces the contribution `base` of the simulated bodies by
+/// `made`.
 template <class Count>
 void replace(const Count& base, const Count& made, Count& total) {
   total = static_cast<Count>(total - base + made);

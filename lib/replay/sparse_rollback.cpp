@@ -18,10 +18,10 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr uint32_t k_runs_max = 3;  ///< simulate(): how often the bodies inside are simulated at most
-/// A tick is repeated in part only if the number of bodies to simulate is at most 1 / k_share_divisor of the number of
-/// bodies that moved in the recorded step. The bodies to simulate may be simulated twice: from the recorded state and
-/// from the present state.
+constexpr uint32_t k_runs_max = 3;  ///< largest number of rounds in which simulate() runs the bodies
+/// When a tick is repeated, the whole world is simulated if the bodies to simulate number more than 1 / k_share_divisor
+/// of the bodies that moved in the recorded step. The bodies to simulate may be simulated twice: from the recorded
+/// state and from the present state.
 constexpr uint32_t k_share_divisor = 3;
 
 /// Whether the used elements of two states are equal.
@@ -51,9 +51,7 @@ bool are_equal_sets(BitSet a, BitSet b) {
   return have_same_bytes(a.words.data, b.words.data, a.words.count * sizeof(uint32_t));
 }
 
-bool can_move(const BodyProperties& properties) {
-  return is_dynamic(properties) || is_kinematic(properties);
-}
+bool can_move(const BodyProperties& properties) { return is_dynamic(properties) || is_kinematic(properties); }
 
 }  // namespace
 
@@ -246,8 +244,9 @@ StepReport SparseRollback::step_whole(World& world, const TickRecord& record) {
   return report;
 }
 
-/// Simulates a step of the bodies inside, from the state `from`. Returns false if the step used up a pool or a budget,
-/// or if continuous collision stopped a body, because the bodies outside could then change the result.
+/// Simulates a step of only the bodies in SparseTick::inside, from the state `from`. Returns false if the step used up
+/// a pool or a budget, or if continuous collision stopped a body: then the bodies that are not simulated could change
+/// the result.
 bool SparseRollback::run(World& world, SparseTick& tick, const StateView<const uint8_t>& from, const WorldHooks& hooks,
                          StepProbe& probe, StepReport& report) {
   tick.load(from, view_of(world));
@@ -286,8 +285,9 @@ bool SparseRollback::take_known_part(const SparseTick& tick, StepReport& base) {
   return true;
 }
 
-/// Keeps the result of the run of the bodies inside, for take_known_part(). The result cannot be used again if a body
-/// has joints but is not moved by the solver, because its unit for joints (SparseTick::keep_units()) is not kept.
+/// Keeps the result of the last run of the simulated bodies, for take_known_part(). The result cannot be used again if
+/// a body has joints but is not moved by the solver, because its unit for joints (SparseTick::keep_units()) is not
+/// kept.
 void SparseRollback::keep_part(const SparseTick& tick, const StepReport& made, TickHead& head) const {
   head.part_known = 1;
   for (const JointBody& body : made_probe_.joint_bodies) {
@@ -301,9 +301,9 @@ void SparseRollback::keep_part(const SparseTick& tick, const StepReport& made, T
   memcpy(tick.record.part_visible.words.data, tick.visible.words.data, tick.visible.words.count * sizeof(uint32_t));
 }
 
-/// Simulates the bodies inside, from the recorded state and from the present state. Repeats this with more bodies, up
-/// to k_runs_max times in all, until the bodies inside reach no others. Returns false if the tick cannot be repeated in
-/// part.
+/// Simulates the bodies in SparseTick::inside, once from the recorded state and once from the present state. Repeats
+/// this with more bodies, up to k_runs_max rounds in all, until the simulated bodies reach no others. Returns false if
+/// the whole world must be simulated instead.
 bool SparseRollback::simulate(World& world, SparseTick& tick, StepReport& base, StepReport& made) {
   const StateView<uint8_t> state = view_of(world);
   if (!tick.expand()) return false;

@@ -59,7 +59,7 @@ class SparseRollback {
   Capacity capacity_ = {};
   uint32_t window_ = 0;
   uint32_t spare_ = 0;              ///< index of the image that no record uses
-  bool again_ = false;              ///< argument of start_tick()
+  bool again_ = false;              ///< argument `again` of start_tick()
   const uint8_t* block_ = nullptr;  ///< block of the world whose tick is being simulated
   StepObserver observer_ = {};
   const StepObserver* theirs_ = nullptr;  ///< the caller's observer
@@ -67,7 +67,8 @@ class SparseRollback {
   bool noted_ = false;                    ///< note_stage() has filled `reach_` and `solved_`
   Span<Bounds> reach_ = {};               ///< TickRecord::reach or SparseTick::reach of the step that runs now
   BitSet solved_ = {};                    ///< TickRecord::solved or SparseTick::solved of the step that runs now
-  /// Of the last runs of the bodies inside: from the recorded state (base) and from the present state (made).
+  /// What the last runs of the bodies inside (those that are simulated) used of pools and budgets: the run from the
+  /// recorded state (base) and the run from the present state (made).
   StepProbe base_probe_ = {}, made_probe_ = {};
 };
 static_assert(sizeof(SparseRollback) <= k_sparse_control_bytes);

@@ -76,8 +76,8 @@ bool header_is_good(const CompoundView& compound) {
   return true;
 }
 
-/// Reads the hull at the offset `at`, and sets `at` to its end. Returns false unless the hull is valid, in the source
-/// frame, and has an exponent of at most `exponent`.
+/// Reads the hull at the offset `at`, and moves `at` to the end of a valid hull. Returns whether the hull is valid, in
+/// the source frame, and has an exponent of at most `exponent`.
 bool read_child_hull(const Asset& asset, uint32_t& at, int32_t exponent, HullView& hull) {
   if (asset.byte_count - at < k_hull_header_bytes) return false;
   const uint32_t bytes = cooked_u32(asset.bytes + at + k_hull_byte_count_at);
@@ -100,8 +100,8 @@ bool is_within(const HullView& inner, const HullView& outer) {
   return true;
 }
 
-/// Checks child `i` and computes its measure. `at`: the offset at which the child's first hull must start. The function
-/// moves it past the child's hulls.
+/// Checks child `i` and computes its measure. Returns whether the child is valid. `at`: the offset at which the child's
+/// first hull must start; the function moves `at` past the child's hulls.
 bool read_child(const Asset& asset, const CompoundView& compound, uint32_t i, uint32_t& at, ChildMeasure& measure) {
   const CompoundChild child = compound.child(i);
   const uint32_t start = k_compound_header_bytes + k_compound_child_bytes * i;

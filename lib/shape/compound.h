@@ -47,8 +47,8 @@ struct CompoundChild {
   int32_t radius;     ///< rounding radius
   uint32_t hull_at;   ///< of a hull: offset of its bytes from the compound's start; else 0
   uint32_t inner_at;  ///< of a hull: offset of its inner hull, which is tested against bodies that penetrate deeply
-  Vec32 low, high;    ///< of a hull: the least and the greatest coordinates of its vertices
-  int32_t half_thickness;  ///< `radius`; of a hull: plus half of its least extent along a face normal
+  Vec32 low, high;    ///< see ChildKind; of a hull: the least and the greatest coordinates of its vertices
+  int32_t half_thickness;  ///< equal to `radius`; of a hull: `radius` + half its least extent along a face normal
 };
 
 /// An axis-aligned box, in 2^-30 of the compound's unit; both ends are included.
@@ -105,8 +105,8 @@ inline ChildBox child_box(const CompoundChild& child) {
   return {{least(a.x, b.x), least(a.y, b.y), least(a.z, b.z)}, {most(a.x, b.x), most(a.y, b.y), most(a.z, b.z)}};
 }
 
-/// The measures of a child, from which the values in the header and in the child follow. `detent cook` writes these
-/// values. read_compound() computes them again and compares.
+/// The measures of a child, in 2^-30 of the compound's unit. The values in the header and in the child follow from
+/// them. `detent cook` writes these values; read_compound() computes them again and compares.
 struct ChildMeasure {
   Vec32 low, high;
   int64_t radius;  ///< greatest distance of the child's surface from the origin, rounded up

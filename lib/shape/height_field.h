@@ -23,8 +23,8 @@ inline constexpr uint32_t k_height_field_step_at = 56;       ///< int32
 inline constexpr uint32_t k_height_field_header_bytes = 64;  ///< zero from 60 on
 
 inline constexpr uint32_t k_height_field_one_sided = 1;     ///< a bit of the flags
-inline constexpr uint32_t k_height_field_cells_max = 4096;  ///< along a side
-inline constexpr uint8_t k_cell_hole = 0x80;                ///< a bit of a cell: it has no triangles
+inline constexpr uint32_t k_height_field_cells_max = 4096;  ///< largest number of cells along a side
+inline constexpr uint8_t k_cell_hole = 0x80;                ///< a bit of a cell's byte: the cell has no triangles
 /// A bit of cell (i, j): its diagonal runs from (i + 1, j) to (i, j + 1), not from (i, j) to (i + 1, j + 1).
 inline constexpr uint8_t k_cell_turned = 0x40;
 inline constexpr uint8_t k_cell_material = 0x3f;
@@ -60,7 +60,7 @@ struct HeightFieldView {
   int32_t z(uint32_t j) const { return origin.z + static_cast<int32_t>(j) * spacing_z; }
 
   /// Triangle `index`, with its neighbours. The cell (i, j) has the triangles t and t + 1 with t = 2 (j columns + i). A
-  /// hole has none.
+  /// cell that is a hole has no triangles.
   TerrainTriangle triangle(uint32_t index) const;
   uint32_t level_columns(uint32_t level) const { return blocks(columns, level); }
   uint32_t level_rows(uint32_t level) const { return blocks(rows, level); }

@@ -68,11 +68,11 @@ uint32_t half_edge(const HullView& hull, uint32_t a, uint32_t b) {
   return static_cast<uint32_t>(around.index + at - (hull.bytes + hull.at.neighbours));
 }
 
-/// Whether the triangles form a closed surface whose directed sides are the entries of the neighbour lists, no vertex
-/// lies above a triangle's plane, and the surface encloses the stated volume. If so, the triangles at each vertex cover
-/// the boundary around it. A vertex that is not the farthest along a direction then has a neighbour that is farther.
-/// There are as many directed sides as entries in the lists. So if each side is found in the lists, and none is found
-/// twice, the lists are in range, ascending and complete.
+/// Whether three conditions hold: the triangles form a closed surface whose directed sides are the entries of the
+/// neighbour lists; no vertex lies above a triangle's plane; the surface encloses the stated volume. If they hold, the
+/// triangles at each vertex cover the boundary around the vertex. Therefore a vertex that is not the farthest along a
+/// direction has a neighbour that is farther. The triangles have as many directed sides as the lists have entries. So
+/// if each side is found in the lists, and no entry is found twice, the lists are in range, ascending and complete.
 bool triangles_are_good(const HullView& hull) {
   uint8_t seen[(k_half_edges_max + 7) / 8] = {};
   const Vec32 apex = hull.vertex(0);
@@ -141,8 +141,9 @@ bool loop_is_good(const HullView& hull, uint32_t face) {
   return true;
 }
 
-/// Whether no vertex lies above the face's plane, and no vertex of the face lies more than k_hull_face_slack below the
-/// plane or outside a side of the face.
+/// Whether the face's plane has a unit normal, no vertex lies above the plane, and the face is nearly flat and convex:
+/// each vertex of the face lies at most k_hull_face_slack below the plane, and at most this far outside any of its
+/// sides.
 bool plane_is_good(const HullView& hull, uint32_t face) {
   const HullPlane plane = hull.plane(face);
   const auto& n = plane.normal;
@@ -171,7 +172,8 @@ bool plane_is_good(const HullView& hull, uint32_t face) {
   return true;
 }
 
-/// Whether the edges are in ascending order and each lies between two faces that have it in opposite directions.
+/// Whether the edges are in ascending order, and each edge lies between two faces whose loops run along it in opposite
+/// directions.
 /// Because read_hull() has checked the number of edges, no edge is missing.
 bool edges_are_good(const HullView& hull) {
   uint32_t last = 0;

@@ -82,8 +82,8 @@ DETENT_SHARED constexpr HullLayout hull_layout(uint32_t vertex_count, uint32_t f
 
 /// An outward face plane: every vertex has normal . vertex <= offset 2^30, exactly.
 struct HullPlane {
-  int32_t normal[3];  ///< in 2^-30; of length 1 within 2^-29 (its square within 2^-28)
-  int32_t offset;     ///< in 2^-30 of the unit
+  int32_t normal[3];  ///< unit normal, in 2^-30; its length is 1 within 2^-29 (its square within 2^-28)
+  int32_t offset;     ///< distance of the plane from the origin, in 2^-30 of the hull's unit
 };
 /// An edge and its two faces. The loop of face `left` runs along the edge from vertex a to b, the loop of `right` from
 /// b to a; a < b.

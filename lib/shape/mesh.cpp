@@ -24,8 +24,8 @@ bool vertices_are_good(const MeshView& mesh) {
   return fits(mesh.shift) && (mesh.shift == 0 || !fits(mesh.shift - 1));
 }
 
-/// Whether the triangle's words are in range, no neighbour is the triangle itself, the edges without a neighbour and no
-/// others are marked open, and the corners are not on a line.
+/// Whether the triangle's words are in range, no neighbour is the triangle itself, exactly the edges without a
+/// neighbour are marked open, and the corners are not on a line.
 bool triangle_is_good(const MeshView& mesh, uint32_t i) {
   for (uint32_t k = 0; k < 3; ++k) {
     if (mesh.vertex_of(i, k) >= mesh.vertex_count || (k > 0 && mesh.word(i, k) >> 24 != 0)) return false;
@@ -39,8 +39,9 @@ bool triangle_is_good(const MeshView& mesh, uint32_t i) {
   return !is_zero(area_vector(a, b, c));
 }
 
-/// Whether edge k of triangle i is open; or the neighbour has this edge in the opposite direction and names triangle i
-/// as its neighbour there, and the stored kind of the edge matches the corners.
+/// Whether edge k of triangle i is open or agrees with its neighbour. It agrees if the neighbour has this edge in the
+/// opposite direction, names triangle i as its own neighbour there, and the stored kind of the edge matches the
+/// corners.
 bool edge_is_good(const MeshView& mesh, uint32_t i, uint32_t k) {
   const uint32_t other = mesh.neighbour(i, k);
   if (other == k_no_triangle) return true;

@@ -47,7 +47,7 @@ Scaled scaled_from_hull(const HullScaled& value) {
 
 Scaled square(Scaled value) { return multiply(value, value); }
 
-/// A size of the core plus the rounding of the shape.
+/// Returns `size`, a size of the core, plus the rounding of the shape, in the body's unit of length.
 Scaled grown(const BodyProperties& properties, Unit size) {
   const Scaled sharp = scaled_from(size);
   return properties.rounding == Unit(0.0) ? sharp : add(sharp, scaled_from(properties.rounding));

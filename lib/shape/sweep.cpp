@@ -7,7 +7,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// An angle, rad. If the estimate is not longer than this, the shortest rotation vector is the nearest one.
+/// An angle, rad. If the angle estimate of sweep_between() is not longer than this, the shortest rotation vector is the
+/// one nearest to the estimate.
 constexpr Real k_half_turn_limit = 3.0;
 constexpr int32_t k_turns_max = 1 << 14;
 

@@ -19,8 +19,8 @@ inline Position moved(const Position& from, const Vec3<Real>& displacement) {
 }
 
 struct Sweep {
-  Vec3<Real> displacement;     ///< of the centre of mass over the step, m
-  Vec3<Real> rotation_vector;  ///< over the step, world axes, rad
+  Vec3<Real> displacement;     ///< displacement of the centre of mass over the step, m
+  Vec3<Real> rotation_vector;  ///< rotation vector of the whole step, world axes, rad
 };
 
 /// The sweep that starts at `start` and ends at rotation `end` after moving by `displacement`. Several rotation vectors

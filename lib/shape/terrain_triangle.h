@@ -15,7 +15,7 @@ inline constexpr int32_t k_terrain_coordinate_max = (1 << 30) - 1;
 enum class EdgeKind : uint8_t {
   flat = 0,     ///< the normals differ by at most k_flat_angle: no body can catch on the edge
   convex = 1,   ///< a ridge, seen from the side from which the corners are counter-clockwise
-  concave = 2,  ///< a valley, seen from the same side
+  concave = 2,  ///< a valley, seen from the side from which the corners are counter-clockwise
   open = 3,     ///< no neighbour
 };
 inline constexpr double k_flat_angle = 0x1p-6;  ///< rad

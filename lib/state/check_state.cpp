@@ -43,8 +43,8 @@ bool is_bound(Unit bound, Unit expected) {
   return bound >= Unit(0.49) && bound <= Unit(1.0) && abs(bound - expected) <= k_error;
 }
 
-/// As is_bound(), for the expected radius core + rounding. Takes the radius of the core alone, because the sum may
-/// exceed the range of a Unit.
+/// As is_bound(), for the expected radius core + rounding. Takes `core`, the radius without the rounding, because the
+/// sum may exceed the range of a Unit.
 bool is_bound_of(Unit core, const BodyProperties& properties) {
   return core <= Unit(1.5) - properties.rounding && is_bound(properties.bounding_radius, core + properties.rounding);
 }

@@ -6,10 +6,10 @@
 #include "state/snapshot.h"
 #include "state/view.h"
 
-// Format: a header of three 8-byte words (magic and format, the base's tick, size of the snapshot in bytes), then the
-// 8-byte words after the snapshot's header in order. A word that differs from the base is stored as a mask of its
-// differing bytes, followed by the new values of these bytes. A run of words that are equal to the base is stored as an
-// empty mask, followed by the number of words; a run at the end is left out.
+// Format: a header of three 8-byte words (magic and format, tick of the base snapshot, size of the snapshot in bytes),
+// then the 8-byte words after the snapshot's header in order. A word that differs from the base is stored as a mask of
+// its differing bytes, followed by the new values of these bytes. A run of words that are equal to the base is stored
+// as an empty mask, followed by the number of words; a run at the end is left out.
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -62,8 +62,8 @@ struct DeltaWriter {
   }
 };
 
-/// Compares the canonical bytes of the state with the base, word by word. add() receives them piece by piece. The
-/// output does not depend on the sizes of the pieces.
+/// Compares the canonical (little-endian) bytes of the state with those of the base snapshot, word by word. add()
+/// receives them piece by piece. The output does not depend on the sizes of the pieces.
 struct Differ {
   DeltaWriter& writer;
   uint32_t same = 0;  ///< number of equal words since the last word that differs

@@ -33,8 +33,8 @@ struct Section {
   uint32_t Layout::*offset;
 };
 
-/// The fields of the elements of a section. The table is separate from k_sections, because a little-endian program does
-/// not need the fields, and so does not store them in flash.
+/// The fields of the elements of a section (an array of the persistent state). They are not part of Section, because a
+/// little-endian program does not need them, and so does not store them in flash.
 struct SectionFields {
   const char* name;
   const Field* fields;
@@ -294,7 +294,8 @@ inline constexpr SectionFields k_section_fields[k_section_count] = {
 };
 
 /// The size of a section, bytes, including the fill up to the alignment of the next section. The fill is always zero.
-/// If the fill is as long as an element, size / element size counts it as one more element of zeros.
+/// If the fill is as long as an element, the quotient of this size and the element size counts the fill as one more
+/// element, which is zero.
 inline uint32_t section_bytes(const Layout& layout, uint32_t index) {
   const uint32_t end = index + 1 < k_section_count ? layout.*k_sections[index + 1].offset : layout.persistent_bytes;
   return end - layout.*k_sections[index].offset;

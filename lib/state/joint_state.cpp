@@ -8,7 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Limit of the lengths of a joint (limits, targets), m, and of a stored impulse, m/s.
+/// Limit of the lengths of a joint (limits, targets), m, and of the elements of JointState::impulse, m/s.
 constexpr Real k_axis_max = 16384.0;
 constexpr Real k_angle_max = 3.14159265358979323846;
 constexpr Real k_frequency_min = 0x1p-10;

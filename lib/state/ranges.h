@@ -28,7 +28,8 @@ DETENT_SHARED inline bool within(const Vec3<Real>& v, Real limit) {
 }
 
 #if DETENT_FIXED
-/// Whether the value is canonical and its exponent is in a range in which the product of two values does not overflow.
+/// Whether the value is canonical (its mantissa is normalised; zero has exponent 0), and its exponent is so small that
+/// the product of two values does not overflow.
 DETENT_SHARED inline bool is_number(Scaled value) {
   if (value.mantissa == 0) return value.exponent == 0;
   const uint32_t magnitude = magnitude_32(value.mantissa);

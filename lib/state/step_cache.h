@@ -38,8 +38,9 @@ inline StepCacheView cache_of(StateView<uint8_t>& state) {
 inline void forget_steps(World& world) { at_offset<StepCache>(world.block, view_of(world).layout.cache)->fresh = 0; }
 
 /// Partitions the active set into moving bodies and resting bodies. Returns the moving bodies, ascending. Removes the
-/// resting bodies from the active set and inserts them into the tree. Starts the tick of all these bodies and computes
-/// their bounds. `slots` is work space for the body capacity.
+/// resting bodies from the active set and inserts them into the tree of resting bodies. Initialises the BodyWork of all
+/// bodies that were in the active set, and computes their bounds (bound()). `slots`: one element for each body of the
+/// capacity; holds the result.
 Span<const uint32_t> partition_bodies(const StepCacheView& step, const StepSettings& settings,
                                       const StateView<uint8_t>& state, Span<BodyWork> work, Span<BodySweep> sweeps,
                                       Span<uint32_t> slots);

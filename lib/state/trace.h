@@ -64,13 +64,13 @@ struct TraceSweep {
   Vec3<Real> displacement, rotation_vector;
 };
 
-/// Receives the canonical bytes of an element. `place`: the index of the element in its array; for a body, its slot
-/// index.
+/// Receives the canonical (little-endian) bytes of an element. `place`: the index of the element in its array; for a
+/// body, its slot index.
 struct TraceVisitor {
   void (*take)(void* context, const TracePart& part, uint32_t place, const uint8_t* bytes);
   void* context;
 };
-/// Visits all elements that are not zero. `contacts`: number of contacts in the work space of the step.
+/// Passes all elements that are not zero to `visitor`. `contacts`: number of contacts in the work space of the step.
 void visit_trace(const World& world, TraceStage stage, uint32_t contacts, const TraceVisitor& visitor);
 
 /// The digest of an element. The digest of a stage is the sum of the digests of all elements.

@@ -143,7 +143,7 @@ class Separation {
   int64_t curvature() const { return curvature_; }
 
   struct Value {
-    int64_t separation;  ///< separation minus the floor, Q56
+    int64_t separation;  ///< separation of the cores minus the required distance `floor_`, Q56
     int64_t slope;       ///< slope of the lower bound for the support points at this time, Q30
   };
   /// `x`: time since the pass's start, Q30 of the horizon.
@@ -167,7 +167,7 @@ class Separation {
   int32_t floor_;
   Side a_, b_;
   int64_t tilt_ = 0, centre_curvature_ = 0, curvature_ = 0;
-  int64_t centre_ = 0, centre_slope_ = 0;  ///< axis . offset of the centres, minus the floor, Q56; its slope, Q30
+  int64_t centre_ = 0, centre_slope_ = 0;  ///< axis . offset of the centres, minus `floor_`, Q56; its slope, Q30
 };
 
 /// Returns the root x > 0 of separation + slope x - K x^2 / 2, where K is `curvature`; Q30, at most `limit`. The root
@@ -245,14 +245,15 @@ int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& hor
     for (int step = 0;; ++step) {
       const Separation::Value value = separation.at(x);
       if (value.separation >= 0) break;
-      // The bound is a concave function of time and positive at the start, so it is positive before the root of its
-      // chord from the start to x. This root is used if the overlap at x is below 1/32 of the separation at the start,
-      // if the slope at x is not negative, and in the last step.
+      // The lower bound of the separation is a concave function of time and positive at the start, so it is positive
+      // before the root of its chord from the start to x. This root is used if the overlap at x is below 1/32 of the
+      // separation at the start, if the slope at x is not negative, and in the last step.
       if (step == 4 || value.slope >= 0 || -value.separation < first.separation >> 5) {
         x = x * (first.separation >> 26) / ((first.separation - value.separation + (int64_t{1} << 26)) >> 26);
         break;
       }
-      // |separation| < 32 (tests/guards/proofs). If it is 2 or more, 4 bits are dropped, so that the product fits.
+      // |separation| < 32 (tests/guards/proofs). If it is 2 or more, 4 bits are dropped, so that the product below fits
+      // 64 bits.
       const int coarse = -value.separation >> 57 != 0 ? 4 : 0;
       const int64_t fall = -value.slope >> coarse;
       const int64_t back = (-value.separation >> (26 + coarse)) * k_one_64 / (fall > 0 ? fall : 1) + 1;

@@ -10,9 +10,9 @@ inline constexpr int k_passes_max = 24;
 /// The motion of a pair over a horizon, which is a part of the step. Displacements and rotation vectors are those over
 /// the whole horizon.
 struct Horizon {
-  int64_t start, length;                         ///< parts of the step, 2^-62
-  Vec32 displacement;                            ///< translation of B relative to A, Q29 of the pair's unit
-  Vec32 angular_velocity_a, angular_velocity_b;  ///< rotation vectors, rad, Q29
+  int64_t start, length;                         ///< start and length of the horizon, 2^-62 of the step
+  Vec32 displacement;                            ///< translation of B relative to A, Q29 of the pair's unit of length
+  Vec32 angular_velocity_a, angular_velocity_b;  ///< rotation vectors of A and of B, rad, Q29
 
   /// The time, 2^-62 of the step, at which the part `part` (Q30) of the horizon has passed; rounded down.
   int64_t time_at(int64_t part) const {
@@ -26,38 +26,38 @@ struct Horizon {
 /// formats of advance() hold 3 rad.
 inline constexpr int k_horizon_quarters = 8;
 
-/// The horizon that begins at `start` and lasts at most `length`. It is shortened so that the rotation angles of both
-/// bodies add up to at most `angle_quarters` quarter radians.
+/// The horizon that begins at `start` and lasts at most `length`, both in 2^-62 of the step. It is shortened so that
+/// the rotation angles of both bodies add up to at most `angle_quarters` quarter radians.
 Horizon horizon_from(const MovingPair& pair, int64_t start, int64_t length, int angle_quarters);
 
-/// The horizon that begins at `start` and lasts exactly `length`.
+/// The horizon that begins at `start` and lasts exactly `length`, both in 2^-62 of the step.
 Horizon horizon_over(const MovingPair& pair, int64_t start, int64_t length);
 
-/// Certifies how long the cores stay at least `floor` ulps apart along the rotating axis n(t) = exp(t angular_velocity)
-/// normal, where t is a part of the horizon and `angular_velocity` the rotation vector of the axis over the whole
-/// horizon. `frames` are the poses at the horizon's start. Adds the number of its passes to `passes`. Returns the
-/// certified part of the horizon, Q30; 0 if the cores are closer than `floor` at the start. Range, rad: |w -
-/// angular_velocity| + 1 < 4 for the rotation vector w of each body, |angular_velocity| < 3. Derivation:
-/// docs/design/time_of_impact.md, "Conservative advancement, never late".
+/// Certifies how long the cores stay at least `floor` apart (in ulps of the pair's block) along the rotating axis n(t)
+/// = exp(t angular_velocity) normal, where t is a part of the horizon and `angular_velocity` the rotation vector of the
+/// axis over the whole horizon. `frames` are the poses at the horizon's start. Adds the number of its passes to
+/// `passes`. Returns the certified part of the horizon, Q30; 0 if the cores are closer than `floor` at the start.
+/// Range, rad: |w - angular_velocity| + 1 < 4 for the rotation vector w of each body, |angular_velocity| < 3.
+/// Derivation: docs/design/time_of_impact.md, "Conservative advancement, never late".
 int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
                 const Vec32& angular_velocity, int32_t floor, uint32_t& passes);
 
 /// Calls advance() for consecutive horizons of the same length, at most k_horizons_max of them. Stops at the first
-/// horizon of which advance() certifies only a part, or when the window ends. Returns the time up to which the axis
-/// certifies the separation.
+/// horizon of which advance() certifies only a part, or when the window in which the bounding spheres touch ends
+/// (MovingPair::to). Returns the time, 2^-62 of the step, up to which the axis certifies the separation.
 int64_t advance_on(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
                    const Vec32& angular_velocity, int32_t floor, uint32_t& passes);
 inline constexpr int k_horizons_max = 8;
 
 /// Certifies a part of the horizon as advance() does, but in a single pass along the fixed axis n = `normal`. The speed
 /// of the points of a body with rotation vector w and core radius rho is bounded by rho |n x w| if `tight`, otherwise
-/// by rho |w| (ToiMethod::paper).
+/// by rho |w| (as ToiMethod::paper does).
 int32_t advance_once(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
                      bool tight, int32_t floor, uint32_t& passes);
 
-/// Returns the separation of the cores along `normal` minus `floor` ulps; Q56 of the pair's unit. The result is too
-/// large by at most the rounding budget (docs/design/time_of_impact.md, "The rounding budget"). It is negative if the
-/// cores are closer than `floor` along `normal`.
+/// Returns the separation of the cores along `normal` minus `floor` (in ulps of the pair's block); Q56 of the pair's
+/// unit of length. The result is too large by at most the rounding budget (docs/design/time_of_impact.md, "The rounding
+/// budget"). It is negative if the cores are closer than `floor` along `normal`.
 int64_t separation_along(const MovingPair& pair, const Frames& frames, const Vec32& normal, int32_t floor);
 
 /// An axis that rotates by the rotation vector `angular_velocity`, Q29, over a horizon.

@@ -20,12 +20,13 @@ inline Vec3<Real> point_on_a(const MovingPair& pair, const Placed& a, const Plac
 }
 
 /// Repeats two steps: calls GJK at the current time, and advances the time to the result of `next_time`. Stops when the
-/// shapes are within the tolerance or the window ends. The result is undecided if `next_time` makes no progress along
-/// an axis that GJK found within its iteration cap, or if `iterations_max` axes did not suffice. `next_time(frames,
-/// simplex, nearest, iteration, floor)` returns a time >= frames.time up to which its method finds the cores at least
-/// `floor` ulps apart. `enough`, ulps: the result is clear at once if the distance of the cores is greater than this
-/// when the window begins; INT32_MAX disables this test. The result is also clear once the time has passed `pair.last`.
-/// The function is always inlined, so that time_of_impact() costs no more than with a loop of its own.
+/// shapes are within the tolerance of touching, or when the window ends in which their bounding spheres touch. The
+/// result is undecided if `next_time` makes no progress along an axis that GJK found within its iteration cap, or if
+/// `iterations_max` axes did not suffice. `next_time(frames, simplex, nearest, iteration, floor)` returns a time >=
+/// frames.time up to which its method finds the cores at least `floor` apart. `floor` and `enough` are in ulps of the
+/// pair's block. `enough`: the result is clear at once if the distance of the cores is greater than this when the
+/// window begins; INT32_MAX disables this test. The result is also clear once the time has passed `pair.last`. The
+/// function is always inlined, so that time_of_impact() costs no more than with a loop of its own.
 template <class NextTime>
 [[gnu::always_inline]] inline void advance_by_axes(const MovingPair& pair, int iterations_max, int32_t enough,
                                                    TimeOfImpact& result, NextTime next_time) {
@@ -52,8 +53,8 @@ template <class NextTime>
     }
     const int64_t next = next_time(frames, simplex, nearest, iteration, floor);
     if (next >= pair.to || next > pair.last) return set_clear(result);
-    // A rim has infinitely many support points, so GJK may stop at its iteration cap with too coarse an axis. The next
-    // round then continues from the simplex of this one.
+    // A rim has infinitely many support points, so GJK may stop at its iteration cap with too coarse an axis. GJK then
+    // continues from its last simplex in the next iteration of this loop.
     if (next == time && nearest.outcome != GjkOutcome::capped) break;
     time = next;
     result.time = Fraction::from_raw(time);

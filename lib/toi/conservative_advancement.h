@@ -28,8 +28,8 @@ inline constexpr int k_toi_iterations_max = 24;
 inline constexpr int k_toi_iterations_compared_max = 256;
 
 /// Finds the time of impact of a prepared pair by conservative advancement. `method`, one of the first k_axis_methods,
-/// decides how the axes are chosen. `enough`, ulps: the result is clear at once if the distance of the cores is greater
-/// than this when the window begins.
+/// decides how the axes are chosen. `enough`, in ulps of the pair's block: the result is clear at once if the distance
+/// of the cores is greater than this when the window begins.
 void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfImpact& result,
                               int32_t enough = INT32_MAX);
 

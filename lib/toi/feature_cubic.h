@@ -33,7 +33,8 @@ struct Shortening {
   /// Whether the error radius is so large that products carry no information and their error bounds would overflow.
   bool is_blind() const { return 8 * ball > distance_max; }
 
-  /// Bound on every component of (a + d) x (b + e) - a x b, for errors d and e within the ball.
+  /// Bound on every component of (a + d) x (b + e) - a x b, the error of the cross product of two corners a and b. d
+  /// and e are the errors of the corners, at most `ball`.
   int64_t moment_error() const { return 2 * ball * (2 * distance_max + ball); }
   /// The error bound of the volume p . (q x r) of three corners p, q, r whose errors are d, e, f. It bounds |d.(q x
   /// r)|, |(d x e).r|, their permutations, and |(d x e).f|. `moments` is the sum of the component magnitudes of the

@@ -35,8 +35,8 @@ struct SweptPair {
   int64_t bend(int64_t length) const { return bound_a.bend(length) + bound_b.bend(length); }
   /// Bound on the relative rotation of the bodies over an interval of this length, Q30 rad.
   int64_t angle_in(int64_t length) const { return bound_a.angle_in(length) + bound_b.angle_in(length); }
-  /// Error bound of a difference of two points at a time: 16 2^-30 of the radius for the rotation of each body, and
-  /// eight roundings (two corners, their images, the positions, the translations).
+  /// Error bound, 2^-46 m, of a difference of two points at a time: 16 * 2^-30 of the radius for the rotation of each
+  /// body, and eight roundings (two corners, their images, the positions, the translations).
   int64_t ball() const {
     static_assert(k_turning_error == 16);
     return ((bound_a.radius + bound_b.radius) >> 26) + 9;

@@ -30,7 +30,7 @@ inline bool raw_corners(const Vec3<Real> (&corner)[4], int bits, Vec64 (&raw)[4]
   }
   return true;
 }
-/// The largest distance of the corners from the origin, rounded up.
+/// The largest distance of a corner from the origin, rounded up.
 inline int64_t radius_of(const Vec64* corner, int count) {
   int64_t radius = 0;
   for (int i = 0; i < count; ++i) radius = larger(radius, length_above(corner[i]));

@@ -84,8 +84,9 @@ struct Moment {
   }
 };
 
-/// Whether a projection along a coordinate axis shows that the polygon never contains the origin. With q(i) its
-/// projected corners, the polygon contains the origin only if q(i) x q(i + 1) has the same sign at all of its edges.
+/// Whether a projection along a coordinate axis shows that the polygon never contains the origin. Let q(i) be the
+/// projected corners. The polygon contains the origin only if the cross product q(i) x q(i + 1) has the same sign for
+/// all i.
 bool passes_by(const ShortSpan& span) {
   const int64_t error = span.is.moment_error();
   bool left[3] = {false, false, false}, right[3] = {false, false, false};

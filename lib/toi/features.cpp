@@ -8,13 +8,14 @@ namespace {
 
 constexpr int k_tries_max = 3;
 constexpr int k_tracking_quarters = 4;  ///< quarter radians; limit of horizon_from() for predicted axes: 1 rad
-constexpr int32_t k_relative_angular_velocity_max =
-    3 << 28;  ///< 1.5 rad, Q29, relative to the base rotation: the limit of the formats of advance()
+/// Limit of the difference between the rotation vector of a predicted axis and base_angular_velocity(): 1.5 rad, Q29.
+/// Within this limit, all values fit the number formats of advance().
+constexpr int32_t k_relative_angular_velocity_max = 3 << 28;
 
-/// The axis between two features, and their separation along it.
+/// The axis between two features, and the separation of the features along it.
 struct FeatureAxis {
   Vec32 normal;  ///< Q30
-  int64_t gap;   ///< ulps
+  int64_t gap;   ///< ulps of the pair's block
 };
 
 /// Converts a core point from its shape's axes to ulps of the block, relative to the shape's centre, world axes.
@@ -22,7 +23,7 @@ Vec32 placed_point(const MovingPair& pair, const Convex& convex, const Matrix32&
   return round_shift(multiply(rotation, local), 30 + pair.exponent - convex.exponent);
 }
 
-/// The features of a pair at a time, world axes, ulps.
+/// The features of a pair at a time, in world axes and in ulps of the pair's block.
 struct PlacedFeatures {
   Vec32 displacement;    ///< from A's first point to B's
   Vec32 edge_a, edge_b;  ///< zero for a vertex
@@ -61,7 +62,7 @@ struct PlacedFeatures {
   }
 };
 
-/// The current speed at which the gap closes, ulps over the horizon.
+/// The current speed at which the gap between the features closes, in ulps of the pair's block over the horizon.
 int64_t closing_speed(const MovingPair& pair, const NearFeatures& features, const Frames& frames,
                       const Horizon& horizon, const Vec32& normal) {
   const auto rim_speed = [&](const Convex& convex, const Matrix32& rotation, const Vec32& angular_velocity,

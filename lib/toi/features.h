@@ -30,9 +30,9 @@ bool axis_between(const MovingPair& pair, const NearFeatures& features, const Fr
 
 /// Predicts the axis between the same features at a later time, and certifies a horizon along an axis that rotates
 /// towards it (advance()). Such an axis is still valid at the time of contact, also for edges and vertices. Returns the
-/// time up to which the cores are certain to stay `floor` ulps apart. Adds its passes and calls of gjk() to those in
-/// `result`. Before the call, `progress` is the time that the previous call gained, which limits the length of the
-/// horizon; afterwards, the time that this call gained.
+/// time up to which the cores are certain to stay at least `floor` (ulps of the pair's block) apart. Adds its passes
+/// and its calls of gjk() to the counts in `result`. Before the call, `progress` is the time that the previous call
+/// gained, which limits the length of the horizon; afterwards, the time that this call gained.
 int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Simplex& simplex,
                          const NearFeatures& features, const GjkResult& nearest, int32_t floor, int64_t& progress,
                          TimeOfImpact& result);

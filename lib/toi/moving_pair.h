@@ -59,27 +59,28 @@ Turning rotation_of(const Convex& convex, const Turning& turning);
 struct Frames {
   int64_t time;
   Matrix32 a, b;
-  Vec32 offset;  ///< from A's centre to B's, in ulps of the block. Error: 1 ulp in each component.
+  Vec32 offset;  ///< from A's centre to B's, in ulps of the pair's block. Error: 1 ulp in each component.
 };
 
-/// Two shapes in motion, in a block (a number format with one exponent) that holds every pose of the window.
+/// Two shapes in motion. Their numbers have one common exponent (a block), with which the poses at all times from
+/// `from` to `to` can be represented.
 struct MovingPair {
   const Convex* a;
   const Convex* b;
   Turning turning_a, turning_b;
   Vec64 offset;           ///< from A's position to B's at the start, 2^-46 m
   Vec64 displacement;     ///< translation of B relative to A over the step, 2^-46 m
-  bool absolute = false;  ///< A and B are moved separately before the difference is taken
+  bool absolute = false;  ///< offset_at() moves A and B separately, then takes their difference
   Vec64 displacement_a;   ///< translation of A over the step, 2^-46 m
   /// The full offset and displacement of the bodies. If a half-space does not rotate, `offset` and `displacement`
   /// contain only the part along its normal; otherwise they are equal to these members.
   Vec64 offset_whole, displacement_whole;
   bool planar;                ///< one of the two shapes is a half-space
-  int64_t from, to;           ///< the window in which the shapes can touch; from > to: never
+  int64_t from, to;           ///< the window: contains all times at which the shapes can touch; from > to: never
   int64_t last = k_time_end;  ///< a search may end as clear when it has passed this time
   int exponent;               ///< 2^exponent m is the pair's unit of length; the block's ulp is 2^-30 of it
   int32_t core_a, core_b;     ///< core radii, ulps of the block, rounded up
-  int64_t distance_max;       ///< bound on the distance of the centres in the window, ulps
+  int64_t distance_max;       ///< bound on the distance of the centres in the window, ulps of the block
   int64_t radius_a;           ///< radius of the ball that rounds A's core, 2^-46 m
   int32_t radius;             ///< sum of the radii of both balls that round the cores, ulps, rounded up
   int32_t tolerance;          ///< ulps: a distance of at most radius + tolerance is a hit

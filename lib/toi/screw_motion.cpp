@@ -53,8 +53,8 @@ int64_t ScrewMotion::tangent_length() const {
 }
 
 int64_t ScrewMotion::bend(int64_t radius) const {
-  // Symbols as in ScrewMotion, and r the distance of a point from the screw axis: |x''| <= 4 g^2 r, and g r <= |d|
-  // sqrt(1 + g^2) / 2 + g |x|.
+  // The second derivative of a point's path is at most 4 g^2 r, where r is the distance of the point from the screw
+  // axis; and g r <= |d| sqrt(1 + g^2) / 2 + g |x|. The symbols g, d and x are those of ScrewMotion.
   const int64_t far = length_above(displacement), g = tangent_length();
   const auto times_g = [g](int64_t value) { return Int128::product(value, g).round_shift(k_tangent_bits) + 1; };
   const int64_t swing = times_g(times_g(radius)), drift = times_g(far + times_g(far));

@@ -22,7 +22,8 @@ inline constexpr int k_screw_range_bits = 10;
 /// angle. c is the position of B at the start and d its displacement. The point that starts at c + x is at time t at
 ///   c + x + t d + t (g x y + t g x (g x y)) / (1 + t^2 g^2),  y = 2 x - (1 - t) d.
 /// The formula needs neither the place of the axis nor the angle, and gives a straight line if there is no rotation.
-/// The two products are perpendicular to each other; with |g| <= 4 and |y| < 2^59 their sum is below 2^63.
+/// The products g x y and g x (g x y) are perpendicular to each other; with |g| <= 4 and |y| < 2^59 their sum is below
+/// 2^63.
 struct ScrewMotion {
   Vec64 first, displacement;  ///< B's position relative to A's at the start (c), and d; 2^-46 m
   Vec32 tangent;              ///< g, Q28

@@ -17,8 +17,8 @@ constexpr int64_t k_sine_error_above = 1;  ///< error of sine_cosine_raw(), 2^-3
 
 /// Bounds on how much a motion has reduced the separation, and on the speed at which the separation decreases further.
 struct Taken {
-  int64_t displacement;  ///< ulps
-  int64_t speed;         ///< ulps over the step
+  int64_t displacement;  ///< ulps of the pair's block
+  int64_t speed;         ///< ulps of the pair's block over the step
 };
 
 /// A bound on the amount by which a body's rotation reduces the separation along a normal.
@@ -70,7 +70,7 @@ int64_t ballistic_time(const MovingPair& pair, const Frames& frames, const Vec32
     const int64_t gain = time_quotient(left, fall);
     if (gain >= rest - elapsed) return pair.to;
     elapsed += gain;
-    if (gain < elapsed >> 5) break;  // a new normal gains more
+    if (gain < elapsed >> 5) break;  // a new normal would gain more time
   }
   return frames.time + elapsed;
 }

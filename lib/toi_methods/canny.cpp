@@ -222,7 +222,8 @@ Status set_line(const Motion& motion, int64_t distance_max, QuaternionLine& line
     squares[1] += static_cast<uint64_t>(sum * sum);
   }
   // With k the tangent of a quarter of the angle, the angular speed is at most 4 k. Including the part of the angular
-  // acceleration, the acceleration of a point is at most 16.9 k^2 times its distance from the body's position.
+  // acceleration, the acceleration of a point is at most 16.9 k^2 times its distance from the body's position. The
+  // bound is a rate whose square exceeds 16.9 k^2: 33/8 k.
   const int64_t k = ((int64_t{square_root_floor(squares[0])} + 2) << 30) / square_root_floor(squares[1]);  // Q30
   bound = {distance_max, turning.turns ? (33 * k) << 13 : 0};
   return Status::ok;

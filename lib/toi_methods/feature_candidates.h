@@ -29,8 +29,8 @@ struct StepPart {
   bool approaches(const Vec32& normal) const { return dot(displacement, normal).round_shift(30) <= stray; }
 };
 
-/// An edge and the outward normals of its two faces as in EdgeFaces, world axes, of length 1 in Q30; zero for a
-/// degenerate edge or face.
+/// An edge and the outward normals of its two faces, in the order of EdgeFaces (distance/polytope.h). All are unit
+/// vectors in world axes, Q30; zero for a degenerate edge or face.
 struct EdgeFan {
   uint8_t from, to;
   Vec32 along, left, right;
@@ -97,8 +97,8 @@ class CandidateSide {
 int64_t separation(const PlacedPair& pair, const Vec32& direction, const CandidateSide& a, const CandidateSide& b);
 
 /// Selects on both sides the vertices whose paths can bring them together along `normal`, which points from A to B in
-/// world axes. Returns whether there are any. Sets `apart`, 2^-46 m: the distance of the positions along `normal` at
-/// the beginning and at the end, minus the bend.
+/// world axes. Returns whether there are any. Sets `apart`, 2^-46 m: the distance of the bodies' positions along
+/// `normal` at the beginning and at the end, minus StepPart::bend.
 bool choose(const StepPart& part, const Vec32& normal, CandidateSide& a, CandidateSide& b, int64_t (&apart)[2]);
 
 /// A world direction in the axes of a body.

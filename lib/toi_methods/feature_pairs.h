@@ -35,7 +35,8 @@ class FeaturePairs {
     for (int i = 0; i < k_lengths; ++i) length_max_[i] = time_quotient(k_part_turn[i], motion.angle_in(k_time_end));
   }
 
-  /// Finds the first contact in the window. The normal and the point of a hit are in the axes of the motion.
+  /// Finds the first contact in the window. The normal and the point of a hit are in the frame in which Motion::at()
+  /// gives the poses.
   void first_contact(const Interval& window, TimeOfImpact& result) {
     result = {};
     if (window.from > window.to) return set_clear(result);
@@ -112,8 +113,8 @@ class FeaturePairs {
     }
   }
 
-  /// Tests the pair of features that is nearest at the beginning. If these features touch in the part, few other pairs
-  /// can touch earlier.
+  /// Tests the pair of features that is nearest at the beginning of the part. If these features touch in the part, few
+  /// other pairs can touch earlier.
   void guess(FeatureToi& first) {
     uint32_t of_a[4], of_b[4];
     const int count_a = distinct(&SimplexVertex::a, of_a), count_b = distinct(&SimplexVertex::b, of_b);
@@ -223,7 +224,7 @@ class FeaturePairs {
   int64_t length_max_[k_lengths];  ///< limits for the length of a part
   StepPart part_;
   Vec32 normal_;
-  int64_t apart_[2];  ///< distance of the positions along normal_ at both ends of the part, minus the bend
+  int64_t apart_[2];  ///< distance of the positions along normal_ at both ends of the part, minus part_.bend
   Simplex simplex_;
 };
 

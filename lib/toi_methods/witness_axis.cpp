@@ -38,9 +38,9 @@ class Witness {
     if (with == MovesWith::edges) axis_between(pair, features, frames, normal_, side_, between);
   }
 
-  /// Finds a time, from that of `frames` on, after which the cores are less than `floor` ulps apart along the witness.
-  /// Returns the end of the window if the cores are at least `floor` ulps apart at that end. Returns the time of
-  /// `frames` if their separation at that time is at most `floor` plus half the tolerance.
+  /// Finds a time, from that of `frames` on, after which the cores are less than `floor` (ulps of the pair's block)
+  /// apart along the witness. Returns the end of the window if the cores are at least `floor` apart at that end.
+  /// Returns the time of `frames` if their separation at that time is at most `floor` plus half the tolerance.
   int64_t leads_to(const Frames& frames, int32_t floor, uint32_t& passes) const {
     // Any separation within [0, 2 aim] is good enough: together with the floor it is within the tolerance.
     const int64_t aim = int64_t{pair_.tolerance} << 24;

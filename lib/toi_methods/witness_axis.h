@@ -12,10 +12,11 @@ inline constexpr int k_root_steps_max = 48;
 /// The time of impact of a prepared pair by the roots of the separation along witnesses. A witness is a plane between
 /// the nearest features. Its normal moves with the features. The normal of a face, of an edge towards a vertex, or of a
 /// half-space rotates with the body of this feature. The normal between two edges is their cross product. Between two
-/// vertices, and on rims, the normal is fixed: the line through two vertices would always separate them. If the cores
-/// are at least the floor apart along the witness at the end of the window, the result is clear. Otherwise regula falsi
-/// (Illinois) and bisection find a time at which the separation falls below the floor. GJK at that time decides whether
-/// the result is a hit, and gives the next witness.
+/// vertices, and on rims, the normal is fixed: the line through two vertices would always separate them. The floor is
+/// the distance, a little below that of a hit, which the cores must keep (advance_by_axes()). If the cores are at least
+/// the floor apart along the witness at the end of the window, the result is clear. Otherwise regula falsi (Illinois)
+/// and bisection find a time at which the separation falls below the floor. GJK at that time decides whether the result
+/// is a hit, and gives the next witness.
 /// At a hit the shapes are disjoint and within the tolerance. *Nothing else is certified*: between the tested times the
 /// shapes may touch and separate again. A reported hit may therefore be later than the first contact, and a pair that
 /// is reported clear may have touched (tests/unit/toi/witness_axis_test.cpp counts both).

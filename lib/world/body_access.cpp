@@ -80,8 +80,9 @@ struct Change {
     motion = state.motions[slot];
   }
   const Quat& rotation() const { return state.poses[slot].rotation; }
-  /// Sets the angular momentum of the body for this angular velocity, m/s (angular_velocity.h), with the unit of length
-  /// and the inertia of the changed properties. Errors: bad_argument, out_of_range.
+  /// Sets the body's angular momentum from `angular_velocity` and the inertia of the changed properties.
+  /// `angular_velocity` is in rad/s times the unit of length of the changed properties, thus in m/s
+  /// (angular_velocity.h). Errors: bad_argument, out_of_range.
   Status turn_with(const Vec3<Real>& angular_velocity) {
     const Real zero = 0.0;
     const bool turns = !(angular_velocity == Vec3<Real>{zero, zero, zero});

@@ -7,8 +7,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Wakes the body and all bodies that fell asleep with it, and adds the body to the active set. Used by calls that
-/// change the motion of a body, or a property that affects its motion.
+/// Wakes the body and all bodies that fell asleep with it, and adds the body to the active set (the bodies that the
+/// next step evaluates). Used by calls that change the motion of a body, or a property that affects its motion.
 inline void wake_slot(StateView<uint8_t>& state, uint32_t slot) {
   const StepCacheView step = cache_of(state);
   state.world.idle = 0;

@@ -34,7 +34,8 @@ Status make_pose(const Position& position, const Quat& rotation, BodyPose& pose)
 Status make_motion(const BodyProperties& properties, const Quat& rotation, const Vec3<Real>& velocity,
                    const Vec3<Real>& angular_velocity, BodyMotion& motion);
 
-/// Whether the velocity, angular momentum and angular velocity of a dynamic body are in the range of the state.
+/// Whether the velocity, angular momentum and angular velocity of a dynamic body are in the ranges that the state
+/// allows.
 bool speeds_fit(const BodyProperties& properties, const Quat& rotation, const BodyMotion& motion);
 
 }  // namespace DETENT_NAMESPACE

@@ -50,8 +50,8 @@ Status make_properties(const World& world, const BodyDef& def, BodyProperties& p
   return Status::ok;
 }
 
-/// Wakes both bodies of every contact that the filter now forbids. Such a contact ends when the step does not find its
-/// pair, and this requires both bodies to be awake.
+/// Wakes both bodies of every contact that the filter now forbids. The next step no longer finds the pair of such a
+/// contact, and so ends the contact. For this, both bodies must be awake.
 void wake_forbidden(const World& world, StateView<uint8_t>& state, uint32_t slot) {
   const PairFilter filter = {state.properties, world.hooks.filter_rules};
   for (const ContactState& contact : state.contacts.first(state.world.contact_count)) {

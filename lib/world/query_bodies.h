@@ -48,8 +48,9 @@ struct QueryBodies {
   Bounds ball_bounds_of(uint32_t slot) const;
 
   /// Visits the bodies whose bounds may satisfy `meets`. `meets` may become stricter during the search. `swaps`: as for
-  /// RestingTree::walk(). The search does not change the world. If the tree is up to date, the search finds resting
-  /// bodies by the tree and tests the bodies of the active set one by one. Otherwise it tests all bodies one by one.
+  /// RestingTree::walk(). The search does not change the world. If the tree of resting bodies (RestingTree) is up to
+  /// date, the search finds resting bodies by the tree, and tests the bodies that moved or were changed one by one.
+  /// Otherwise it tests all bodies one by one.
   template <class Meets, class Swaps, class Visit>
   void for_each(const Meets& meets, const Swaps& swaps, const Visit& visit) const {
     const auto look_at = [&](uint32_t slot) {

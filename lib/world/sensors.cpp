@@ -18,9 +18,9 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The largest distance at which a body counts as within a sensor is 2^k_within_power times the pair's smaller extent.
-/// This distance exceeds the tolerance of a time of impact; therefore a body that hits the sensor is within the sensor
-/// at the time of impact. The distance is less than the margin of sensed_bounds().
+/// The largest distance at which a body counts as within a sensor is 2^k_within_power times the smaller of the two
+/// bodies' extents (shape_extent()). This distance exceeds the tolerance of a time of impact; therefore a body that
+/// hits the sensor is within the sensor at the time of impact. The distance is less than the margin of sensed_bounds().
 constexpr int k_within_power = -14;
 
 /// Bounds that contain the body from the time `from` of its sweep to the end of the tick. Their margin covers the

@@ -36,13 +36,14 @@ struct SensorStage {
   StepCacheView cache;
   BitSet changed;                  ///< bodies that moved in the last step or were changed since
   Span<const SensedState> before;  ///< pairs whose body was within the sensor at the end of the last step
-  SensedKeys passed, found;  ///< `passed`: pairs found on a segment before the last of a sweep. `found`: all pairs
+  /// `passed`: the pairs that touched on a segment of the body's sweep before its last segment (impacts divide a sweep
+  /// into segments). `found`: all pairs of this step.
+  SensedKeys passed, found;
   Overflow& overflow;
   uint32_t undecided = 0;
 };
 
-/// Sets `changed` to the bodies that have changed since the last step. Must be called before the step partitions the
-/// bodies.
+/// Sets `changed` to the bodies that have changed since the last step. Must be called before partition_bodies().
 void note_changed(const StepCacheView& cache, uint32_t slots_used, BitSet changed);
 
 /// Finds the sensors that the body `slot` touches on a segment of its sweep. Adds each pair to `passed` if the body was
@@ -54,7 +55,7 @@ void sense_sweep(void* stage, uint32_t slot, Fraction until);
 /// finds the bodies that passed through a sensor. Raises the events. Must be called after all sweeps are final.
 void sense(SensorStage& stage, const StateView<uint8_t>& state, SensorEventBuffer events, StepReport& report);
 
-/// The functions of the sensor feature, for a feature table.
+/// Entry of FeatureTable (detent/features.h): the functions for sensors.
 struct SensorOps {
   decltype(&note_changed) start;
   decltype(&sense_sweep) sweep;

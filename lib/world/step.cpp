@@ -106,8 +106,8 @@ class Step {
   ContactRoom room() const {
     return {scratch_, state_.contacts.count - (contacts_before_ - awake_contacts_.count), manifolds().count != 0};
   }
-  /// Whether several islands may be solved together, to fill the lanes. They may not in two cases: if each island can
-  /// end its iterations early, and if positions are corrected island by island after the substeps.
+  /// Whether several islands may be solved together, to fill the lanes of the vector registers. They may not in two
+  /// cases: each island may end its iterations early, or positions are corrected island by island after the substeps.
   bool groups_islands() const {
     return uses_lanes(settings_) && settings_.iterations == 1 && !settings_.post_stabilises;
   }
@@ -210,7 +210,8 @@ void Step::find_pairs() {
   wake_touched_bodies();
 }
 
-/// Collects the joints of the step. First starts the tick of the jointed bodies that do not move.
+/// Collects the joints of the step. First initialises the BodyWork of the jointed bodies that are not in the active
+/// set.
 void Step::start_joints() {
   if (joint_ops_ == nullptr) return;
   const auto start_ends = [&](const JointState& joint) {
@@ -342,8 +343,9 @@ void Step::solve_island(const Island& island, StepSettings& settings) {
 
 void Step::solve_islands(Team* team) {
   StepSettings settings = shared_settings(settings_, team);
-  // Two lists of islands that are solved below, stored in BodyWork::run, which is no longer needed. The list from the
-  // front on has the islands that one thread solves; the list from the back has the islands that all threads share.
+  // Two lists of islands that are solved below. They are stored in BodyWork::run, whose contents are no longer needed.
+  // The list from the front on has the islands that one thread solves; the list from the back has the islands that all
+  // threads share.
   const auto front = [&](uint32_t k) -> uint32_t& { return bodies_.work[k].run; };
   const auto back = [&](uint32_t k) -> uint32_t& { return bodies_.work[islands_.count - 1 - k].run; };
   uint32_t for_one_thread = 0, for_all = 0, grouped = 0;

@@ -12,9 +12,9 @@ namespace {
 
 /// Lengths of a pair, m.
 struct PairLengths {
-  Real at_rest;  ///< contact margin of a pair that does not move
-  Real margin;   ///< speculative_distance()
-  Real reach;    ///< speculative distance from the relative speed, so that bodies that move together count as slow
+  Real at_rest;           ///< contact margin of a pair that does not move
+  Real margin;            ///< contact margin: speculative_distance() for the sum of the two bodies' speeds
+  Real reach;             ///< as `margin`, for the relative speed, so that bodies that move together count as slow
   Real recycle_distance;  ///< largest relative motion for which the pair's contact points are recycled
 
   /// Whether a point that was beyond `margin` when the contact points were computed is still too far away to touch in
@@ -52,8 +52,8 @@ PairLengths lengths_of(const StepSettings& settings, const StepBodies& bodies, u
   const bool jointed = a.joint_body != k_no_link || b.joint_body != k_no_link;
   const Real margin = speculative_distance(settings, extent, a.speed + b.speed, jointed);
   PairLengths lengths = {extent * settings.contact_margin, margin, margin, extent * settings.contact_recycle_distance};
-  // Impacts do not stop jointed bodies. So the contacts of jointed bodies must cover every motion that the solver can
-  // cause.
+  // Continuous collision does not stop jointed bodies. So the contacts of jointed bodies must cover every motion that
+  // the solver can cause.
   if (jointed || lengths.is_slow() || a.speed == k_zero || b.speed == k_zero) return lengths;
   const bool a_is_smaller = a.extent < b.extent;
   Real speed;
@@ -72,9 +72,9 @@ struct ContactBefore {
   const ManifoldState* manifold = nullptr;
 };
 
-/// Computes the contact points of a pair of bodies, whose tick must have been started. If the points of the last tick
-/// are still valid, it recycles them and sets `recycled`. Otherwise it finds new points. If `manifold` is not null, it
-/// receives the data for recycling in the next tick.
+/// Computes the contact points of a pair of bodies. Range: the BodyWork of both is initialised (StepBodies::start()).
+/// If the points of the last tick are still valid, it recycles them and sets `recycled`. Otherwise it finds new points.
+/// If `manifold` is not null, it receives the data for recycling in the next tick.
 void collide_pair(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b, const StepBodies& bodies,
                   const ContactBefore& before, ContactGeometry& geometry, ManifoldState* manifold, bool& recycled) {
   const CollisionBody body_a = bodies.collider(slot_a), body_b = bodies.collider(slot_b);
@@ -221,9 +221,9 @@ struct Collider {
   }
 
   /// Leaves the rebounds of pairs of dynamic bodies to continuous collision, which resolves them as impacts. The solver
-  /// resolves the rebounds of two kinds of pairs itself: pairs with parts, and pairs of which a body leans on a dynamic
-  /// body. Two dynamic bodies lean on each other if their contact had a normal impulse in the last tick. Without these
-  /// exceptions, a pile would cause too many impacts.
+  /// resolves the rebounds of two kinds of pairs itself: pairs with a compound or terrain, and pairs of which a body
+  /// leans on a dynamic body. Two dynamic bodies lean on each other if their contact had a normal impulse in the last
+  /// tick. Without these exceptions, a pile would cause too many impacts.
   __attribute__((noinline)) void leave_rebounds_to_impacts() const {
     const Span<ContactWork> contacts = room.contacts().first(count.contacts);
     const auto for_each_leaning = [&](const auto& visit) {
@@ -242,19 +242,19 @@ struct Collider {
     for_each_leaning([&](uint32_t slot) { room.leaning().clear(slot); });
   }
 
-  /// Starts the tick of a resting body before its pairs are collided. Successive pairs often have the same resting body
-  /// (the ground). The function remembers the body that it started last, and does not start it again.
+  /// Initialises the BodyWork of a resting body before its pairs are collided. Successive pairs often have the same
+  /// resting body (the ground). The function remembers the body that it started last, and does not start it again.
   void start(uint32_t slot) {
     if (bodies.active.has(slot) || slot == last_started) return;
     bodies.start(settings, slot);
     last_started = slot;
   }
 
-  /// Sets `next`, the position in the list of the last tick's contacts, to the contacts of this pair.
+  /// Sets `next`, the position in the list of the last tick's contacts, to the first contact of this pair.
   void seek(uint64_t key) {
     next = partition_point(last.awake.count, [&](uint32_t i) { return key_of(last.contacts[last.awake[i]]) < key; });
   }
-  /// Moves a contact that another collider found to the end of the contacts.
+  /// Appends a contact that another Collider stored at the index `from`.
   void move(uint32_t from) {
     const uint32_t place = count.contacts++;
     if (place == from) return;
@@ -341,8 +341,8 @@ struct Collider {
   }
 
   /// Called when there is no room for a contact of this depth. Drops either this contact or the shallowest stored
-  /// contact, whichever is shallower, and counts it. Returns true if the stored contact is dropped: the caller must
-  /// then replace it. It is the first entry of room.by_depth().
+  /// contact, whichever is shallower, and counts it as dropped. Returns true if the stored contact is dropped. The
+  /// caller must then replace it; the first entry of room.by_depth() refers to it.
   __attribute__((noinline)) bool leave_out_shallowest(Real depth, uint64_t key) {
     if (count.dropped++ == 0) {
       for (uint32_t i = 0; i < room.by_depth().count; ++i) {
@@ -373,7 +373,8 @@ struct Collider {
     if (recycles()) room.manifolds()[place] = manifold;
     ContactWork& work = room.contacts()[place];
     work.state = continued_contact(slot_a, slot_b, part, geometry, before);
-    // If the bodies only now collide, their velocities change at once, so the arms are not advanced along them.
+    // Half a tick, because make_rows() computes the arms for the middle of the tick. If the bodies only now collide,
+    // their velocities change at once. The arms are then those at the start of the tick.
     const Real ahead = is_pushed(work) ? scale_by_power(settings.tick_time, -1) : k_zero;
     make_rows(settings, bodies.at(slot_a), bodies.at(slot_b), geometry, ahead, work);
     if (work.static_pair == 0 && is_positive(work.restitution)) rebounds = 1;

@@ -20,7 +20,7 @@ struct StepBodies {
   Span<const BodyMotion> motions;
   Span<BodyActivity> activities;
   Span<BodyWork> work;
-  BitSet active;  ///< the active set
+  BitSet active;  ///< bodies that moved in the last step or were changed since (step_cache.h)
   AssetTable assets;
   const FeatureTable& features;
 
@@ -42,7 +42,8 @@ struct StepBodies {
 };
 
 /// Wakes each sleeping body that a moving body touches, then each sleeping body that a woken body touches, and so on.
-/// Removes the woken bodies from the tree, and adds their pairs to `pool`. Returns the number of bodies that woke.
+/// Removes the woken bodies from the tree of resting bodies, and adds their pairs to `pool`. Returns the number of
+/// bodies that woke.
 uint32_t wake_touched(const StepSettings& settings, const StepBodies& bodies, const StepCacheView& cache,
                       PairPool& pool);
 
@@ -50,7 +51,9 @@ struct ContactCount {
   uint32_t contacts = 0;
   uint32_t points = 0;
   uint32_t dropped = 0;
-  uint32_t parts_dropped = 0;  ///< contacts beyond 16 of one pair; the shallowest of the pair are dropped
+  /// Touches (contacts of a triangle or of two parts) dropped because their pair has more than 16 contacts. The deepest
+  /// are kept.
+  uint32_t parts_dropped = 0;
   uint32_t capped = 0;
   uint32_t recycled = 0;
 };
@@ -59,7 +62,7 @@ struct ContactCount {
 struct LastContacts {
   Span<const ContactState> contacts;    ///< sorted by pair and part
   Span<const ManifoldState> manifolds;  ///< of these contacts, or empty
-  Span<const uint32_t> awake;           ///< indices of the contacts with an awake body, which may continue
+  Span<const uint32_t> awake;           ///< indices in `contacts` of those with an awake body; only these may continue
 };
 
 /// The arrays for the contacts of a tick, or a range of these arrays.
@@ -81,8 +84,8 @@ struct ContactRoom {
   BitSet leaning() const { return scratch.candidates; }
 };
 
-/// Collides the pairs in ascending order, and computes the rows of their contacts, sorted by pair and part. If `room`
-/// is too small, the shallowest contacts are dropped.
+/// Collides the pairs in ascending order, and computes the constraint rows of their contacts. The contacts are sorted
+/// by pair and part. If `room` is too small, the shallowest contacts are dropped.
 ContactCount find_contacts(const StepSettings& settings, const StepBodies& bodies, const LastContacts& last,
                            const ContactRoom& room, Overflow& overflow, Span<const uint64_t> pairs);
 

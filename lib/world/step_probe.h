@@ -9,10 +9,15 @@ inline namespace DETENT_NAMESPACE {
 /// Data that a step records in addition to its report, and inputs of a step in a rollback.
 struct StepProbe : ImpactProbe {
 #if DETENT_SPARSE
-  Span<const JointState> joints = {};               ///< input: JointStage::others
-  BitSet anchoring = {};                            ///< input: JointStage::anchoring
-  Span<const JointBody> joint_bodies = {};          ///< output: JointStage::bodies of the step; they lie in the block
-  uint32_t joint_couplings = 0, joint_numbers = 0;  ///< output: entries used of the pools with these names
+  /// Input: the joints from which `anchoring` selects (JointStage::others).
+  Span<const JointState> joints = {};
+  /// Input: indices in `joints` of joints that this step does not solve, but whose fixed and kinematic bodies it
+  /// collects (JointStage::anchoring).
+  BitSet anchoring = {};
+  /// Output: the jointed bodies of the step (JointStage::bodies). The entries are stored in the world's block.
+  Span<const JointBody> joint_bodies = {};
+  /// Output: number of elements that the step used of JointStage::couplings and of JointStage::numbers.
+  uint32_t joint_couplings = 0, joint_numbers = 0;
 #endif
 };
 

@@ -34,9 +34,9 @@ constexpr uint32_t joint_body_count(Capacity capacity) {
   return 2 * capacity.joints < capacity.bodies ? 2 * capacity.joints : capacity.bodies;
 }
 
-/// Capacity of couplings in the factor of the joints: 16 for each joint, or, if that is less, one for each pair of
-/// joints, which is the largest possible number. A chain of hinges needs 1 for each joint; a net of 10 x 10 ball joints
-/// needs 9.
+/// Capacity of couplings, the off-diagonal blocks in the factor of the joints' matrix: 16 for each joint, or, if that
+/// is less, one for each pair of joints, which is the largest possible number. A chain of hinges needs 1 for each
+/// joint; a net of 10 x 10 ball joints needs 9.
 constexpr uint32_t joint_coupling_count(Capacity capacity) {
   constexpr uint32_t k_each = 16;
   const uint32_t joints = capacity.joints;
@@ -50,17 +50,17 @@ constexpr uint32_t joint_number_count(Capacity capacity) {
   return all < most ? all : most;
 }
 
-/// The number of Reals that joint_number_count() numbers take in memory. With lanes, each row of a block is padded to 4
-/// or 8 numbers: 256 numbers for a joint, in the blocks of at most 16 couplings, then take at most 544 Reals. The
-/// factor 9/4 provides 576.
+/// The number of Reals that joint_number_count() numbers take in memory. With vector code, each row of a block is
+/// padded to 4 or 8 numbers: 256 numbers for a joint, in the blocks of at most 16 couplings, then take at most 544
+/// Reals. The factor 9/4 provides 576.
 template <bool has_lanes>
 constexpr uint32_t joint_number_room(Capacity capacity) {
   const uint32_t count = joint_number_count(capacity);
   return has_lanes && k_may_have_joint_lanes ? count / 4 * 9 : count;
 }
 
-/// The largest number of groups of four contacts that `contacts` contacts can form; 0 without lanes. The contacts of a
-/// group are solved at once.
+/// The largest number of groups of four that `contacts` contacts can form; 0 in builds without vector code. The solver
+/// processes the contacts of a group at once.
 constexpr uint32_t lane_contact_count(uint32_t contacts) { return k_may_have_lanes ? contacts / 4 : 0; }
 
 constexpr uint32_t slot_words(uint32_t bodies) { return (bodies + 63) / 64 * 2; }
@@ -70,8 +70,8 @@ constexpr bool in_range(Capacity capacity) {
          capacity.assets <= k_capacity_max && capacity.joints <= k_capacity_max && capacity.sensed <= k_capacity_max;
 }
 
-/// The layout for a capacity in range; `fits` is false if the block would need 2^32 bytes or more. The layout without
-/// lanes is the same on every target.
+/// Returns the layout for a capacity in range. Sets `fits` to false if the block would need 2^32 bytes or more, else to
+/// true. With `has_lanes` false (no vector code), the layout is the same on every target.
 template <bool has_lanes = k_may_have_lanes>
 DETENT_SHARED constexpr Layout layout_of(Capacity capacity, bool& fits) {
   uint64_t end = 0;

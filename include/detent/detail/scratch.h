@@ -14,10 +14,12 @@ struct Bounds {
 /// A node of the tree of resting bodies (lib/broad_phase/resting_tree.h).
 struct TreeNode {
   Bounds bounds;      ///< bounds that contain all leaves below this node
-  uint32_t child[2];  ///< links to the two children: nodes or leaves
-  /// The parent node, encoded as in RestingTree. In the list of free nodes: index + 1 of the next free node; 0: none.
+  uint32_t child[2];  ///< links to the two children, which are nodes or leaves (RestingTree::node_link(), leaf_link())
+  /// Of a node in the tree: index of the parent node + RestingTree::k_first_parent; RestingTree::k_above_root for the
+  /// root. Of a node in the list of free nodes: index + 1 of the next free node; 0: none.
   uint32_t parent;
-  uint32_t bit;       ///< index of the first key bit in which the leaves below differ; it is 1 in the second child
+  /// Index of the first bit in which the keys of the leaves below differ. The bit is 1 in the keys below child[1].
+  uint32_t bit;
 };
 
 struct alignas(8) TreeRoot {
@@ -28,8 +30,8 @@ struct alignas(8) TreeRoot {
 };
 
 /// The header of the step cache: data that is kept between ticks so that steps can skip resting bodies. The cached data
-/// are the tree, the bounds and the (zero) sweeps of the bodies in the tree, the active set of the next step, and the
-/// list of awake contacts. All of them can be recomputed from the state.
+/// are the tree, the bounds and the (zero) sweeps of the bodies in the tree, the set of bodies that take part in the
+/// next step, and the list of awake contacts. All of them can be recomputed from the state.
 struct alignas(8) StepCache {
   uint32_t fresh;           ///< 0: the next step recomputes the cache
   uint32_t contacts_known;  ///< 1: the list of awake contacts is complete; 0: the next step searches all contacts
@@ -41,10 +43,10 @@ struct alignas(8) StepCache {
 /// A body's bounds in the sort and sweep, in cells of a grid over all bodies; coordinates are rounded down. If the
 /// rounded bounds of two bodies are disjoint, so are their exact bounds.
 struct BoundsKey {
-  uint32_t lower, upper;  ///< along the sort axis
+  uint32_t lower, upper;  ///< bounds along the sort axis, cells
   uint32_t slot;
   uint32_t is_dynamic;
-  uint32_t across_lower, across_upper;  ///< along the other two axes, 15 bits each
+  uint32_t across_lower, across_upper;  ///< bounds along the other two axes, cells: 15 bits for each axis
 };
 
 /// A body's inverse inertia (per unit mass) in world axes: angular velocity = inverse inertia x angular momentum, in
@@ -57,7 +59,7 @@ struct alignas(sizeof(Unit)) WorldInverseInertia {
 /// The inverse inertias (per unit mass) of a body about its axes, split for its free rotation (rotate_freely() in
 /// angular_velocity.h): two of the axes have similar values, and the *odd* axis differs most.
 struct alignas(sizeof(Unit)) FreeRotation {
-  Scaled common;    ///< inverse inertia about the axis after the odd axis
+  Scaled common;    ///< inverse inertia about the axis after the odd axis, in the cyclic order x, y, z, x
   Scaled odd_rate;  ///< inverse inertia about the odd axis minus `common`
   Scaled rest;      ///< inverse inertia about the third axis minus `common`
   int32_t odd;      ///< index of the odd axis
@@ -82,10 +84,11 @@ struct alignas(8) BodyWork {
   uint32_t supports;
   uint32_t joint_body;  ///< index of its JointBody; UINT32_MAX if the body has no joint
   /// While loads are estimated: the mass of the body plus that of the bodies on it, kg. In the substeps: the fraction
-  /// of the warm start that its island keeps in this substep.
+  /// of the warm-start impulses that the body's island keeps in this substep.
   alignas(sizeof(Real)) Scaled carried;
-  Real height;    ///< height above the island's first body, against gravity, m, while loads are estimated
-  Quat rotation;  ///< local to world, now
+  /// While loads are estimated: height of the body above the first body of its island, against gravity, m.
+  Real height;
+  Quat rotation;  ///< local to world, at the current point of the tick
   Matrix3 axes;   ///< local to world, at the start of the tick
   WorldInverseInertia inverse_inertia;
   FreeRotation free_rotation;
@@ -95,12 +98,13 @@ struct alignas(8) BodyWork {
   Vec3<Real> displacement;  ///< since the start of the tick, m
   /// Sum over the substeps since the start of the tick: angular velocity x length of the substep x 2^size_exponent, m.
   Vec3<Real> rotation_vector;
-  Vec3<Real> angular_velocity;          ///< times 2^size_exponent, in units of 2^k_angular_velocity_power m/s
+  /// Angular velocity times the body's unit of length 2^size_exponent m, in units of 2^k_angular_velocity_power m/s.
+  Vec3<Real> angular_velocity;
   Vec3<Real> push;          ///< velocity that gravity and forces add in a substep, m/s
-  Vec3<Real> twist;         ///< angular momentum that torques add in a substep, m/s
-  /// The velocity and the angular momentum that contacts added in this substep, m/s. In float these members are the
-  /// sums of these changes. In fixed point, differences are exact, so these members store the negative of the motion
-  /// that the body would have without contacts; the change is the current motion plus this value (contact_motion.h).
+  Vec3<Real> twist;         ///< angular momentum (BodyMotion::angular_momentum) that torques add in a substep, m/s
+  /// The velocity and the angular momentum (BodyMotion) that contacts added in this substep, m/s. In float, these two
+  /// members are the sums of the changes by contacts. In fixed point, differences are exact, so these members store the
+  /// negative of the motion without contacts; the change is the current motion plus the member (contact_motion.h).
   Vec3<Real> contact_velocity;
   Vec3<Real> contact_angular_momentum;
   Vec3<Real> velocity_before;  ///< velocity before the last solver iteration, if there are several, m/s
@@ -118,7 +122,7 @@ struct alignas(8) ContactWork {
   Vec3<Unit> normal;  ///< from A to B
   Vec3<Unit> tangent[2];
   Vec3<Unit> moment_a, moment_b;  ///< arms of the normal impulse: middle_a x normal, middle_b x normal
-  Unit unit_a, unit_b;          ///< the pair's unit of length, in the body's unit; 0 for a fixed body
+  Unit unit_a, unit_b;          ///< the pair's unit of length / the unit of body A, B; 0 for a fixed body
   /// Element (i, k): the normal speed at point i per unit normal impulse at point k. Mantissas, times
   /// 2^coupling_exponent.
   Unit coupling[k_manifold_points_max][k_manifold_points_max];
@@ -127,8 +131,8 @@ struct alignas(8) ContactWork {
   // beyond the number of points.
   alignas(sizeof(Unit)) Unit x[k_manifold_points_max];
   Unit y[k_manifold_points_max];
-  /// Effective masses of the points along the normal, in (0, 1]. All 0 if continuous collision handles the contact
-  /// instead (leave_to_impact() in lib/solver/contact_rows.h).
+  /// Effective masses of the points along the normal / reference mass, in (0, 1]. All 0 if continuous collision handles
+  /// the contact instead of the solver (leave_to_impact() in lib/solver/contact_rows.h).
   Unit normal_mass[k_manifold_points_max];
   uint32_t apart[k_manifold_points_max];     ///< 1 if the point's gap does not close in the substep
   uint32_t static_pair;                      ///< 1 if only one of the bodies is dynamic
@@ -142,7 +146,7 @@ struct alignas(8) ContactWork {
   /// (response_index()). Mantissas, times 2^response_exponent.
   Unit response[21];
   int32_t response_exponent;
-  alignas(sizeof(Unit)) Unit friction_mass;  ///< effective mass along the tangents, in (0, 1]
+  alignas(sizeof(Unit)) Unit friction_mass;  ///< effective mass along the tangents / reference mass, in (0, 1]
   Scaled friction;
   Scaled twist_arm;        ///< largest angular impulse about the normal, divided by the normal impulse
   Scaled rolling_arm;      ///< largest angular impulse about the tangents, divided by the normal impulse
@@ -154,8 +158,9 @@ struct alignas(8) ContactWork {
   /// (parted_by_sliding() in lib/solver/contact_rows.cpp).
   alignas(sizeof(Real)) Real separation[k_manifold_points_max];
   Real impulse_max[k_manifold_points_max];  ///< largest normal impulse of each point so far in this tick, m/s
-  Real friction_impulse[2];                 ///< along the tangents, m/s
-  Real angular_impulse[3];                  ///< about the normal and the tangents, m/s
+  Real friction_impulse[2];                 ///< friction impulses along the tangents / reference mass, m/s
+  /// Angular impulses about the normal and the tangents / (reference mass x the pair's unit of length), m/s.
+  Real angular_impulse[3];
   Real deep;                                ///< depth, m, beyond which the stiffness of the spring doubles
   Real push_max;                            ///< largest separating speed of the position correction, m/s
   Real rebound_min;                         ///< approach speed below which the contact does not rebound, m/s
@@ -201,51 +206,51 @@ struct Island {
   uint32_t first_contact, contact_count;  ///< range in the solve order
   uint32_t substeps;                      ///< number of substeps; until it is chosen, the least that the joints permit
   uint32_t first_joint, joint_count;      ///< range in the order of the joints, assembly by assembly
-  uint32_t joint_couplings_dropped;       ///< number of couplings of its joints that had no room in the factor
+  uint32_t joint_couplings_dropped;       ///< number of couplings of its joints for which JointStage had no room
   Scaled joint_need;                      ///< square of the number of substeps that its joints need
 };
 
 /// A body with joints, while joints are solved: the part that is set once a tick.
 struct alignas(8) JointBodyStart {
   uint32_t slot;
-  uint32_t mobile;                     ///< 1 if it is dynamic and awake
+  uint32_t mobile;                     ///< 1 if the body is dynamic and awake
   /// First and last entry in the list of its joints; UINT32_MAX if the list is empty. An entry is 2 x joint + end,
   /// where `end` is 0 if the body is the joint's A, and 1 if it is B.
   uint32_t first, last;
-  uint32_t next;                       ///< next mobile body of its assembly; of the last one: its own index
+  uint32_t next;                       ///< next mobile body of its assembly (Island); of the last one: its own index
   int32_t exponent;                    ///< the body's unit for joints is 2^exponent m
   int32_t above;                       ///< `exponent` minus the body's size_exponent
   uint32_t renewed;                    ///< 1 if its inverse inertia has changed since the last substep
   uint32_t slowed;                     ///< 1 if its joints increase its inertia: an element of kept_rotation is below 1
-  alignas(sizeof(Real)) Scaled inverse_mass;  ///< relative inverse mass: reference mass / mass; 0 if no joint moves it
+  alignas(sizeof(Real)) Scaled inverse_mass;  ///< reference mass of its assembly / its mass; 0 if no joint moves it
 };
 /// The part of a body with joints that each substep recomputes. The body's *unit for joints* is a power of two, m, that
 /// is at least as long as its joints' arms. Angular velocities and angular momenta are in this unit
 /// (angular_velocity.h). Of a body that the solver does not move, only the members from `rotation` to
 /// `angular_velocity` are set.
 struct alignas(8) JointBody : JointBodyStart {
-  Vec3<Real> velocity_before;  ///< at the start of the substep, before forces and impulses, m/s
+  Vec3<Real> velocity_before;  ///< velocity at the start of the substep, before forces and impulses, m/s
   /// Angular momentum at the start of the substep, before forces and impulses, m/s (angular_velocity.h). While
-  /// positions are integrated: the angular momentum that belongs to the inertia of the substep.
+  /// positions are integrated: the angular momentum at the inertia that joints have increased (kept_rotation).
   Vec3<Real> angular_momentum_before;
   Quat rotation;              ///< local to world, now
-  Matrix3 axes;               ///< the same rotation as a matrix
+  Matrix3 axes;               ///< `rotation` as a matrix
   Vec3<Real> place;           ///< displacement of its centre since the start of the tick, m
-  Vec3<Real> linear_velocity, angular_velocity;  ///< the speeds of the rows are computed from these, m/s
+  Vec3<Real> linear_velocity, angular_velocity;  ///< velocities that determine the speeds of the rows, m/s
   Vec3<Real> turned[3];  ///< angular velocity per unit angular impulse: rows of a symmetric matrix
   // Code with registers of four floats reads and writes one float beyond `push` and beyond `twist`: `pushed` and
   // kept_rotation[0] must follow them.
   Vec3<Real> push;  ///< velocity that the rows' impulses add, m/s
   Real pushed;      ///< velocity per unit impulse
-  Vec3<Real> twist;  ///< angular momentum that the rows' impulses add, m/s
+  Vec3<Real> twist;  ///< angular momentum that the rows' impulses add, in the body's unit for joints, m/s
   /// About each body axis: the ratio, in (0, 1], of the body's own inertia to its inertia in this substep, which joints
   /// may increase (joint_inertia.cpp). At equal angular velocity, the angular momenta have the same ratio.
   alignas(sizeof(Real)) Scaled kept_rotation[3];
-  /// Velocity and angular momentum, m/s, that impulses without a row add: those of motors at full force and of soft
-  /// springs.
+  /// Velocity, m/s, and angular momentum, scaled as `twist`, that explicit impulses add. Explicit impulses have no row
+  /// in the system of equations. Soft springs, and motors and friction at their greatest force, apply them.
   Vec3<Real> given_push, given_twist;
   Vec3<Real> shift;                    ///< translation in this substep that corrects position errors of joints, m
-  Vec3<Real> shift_rotation;               ///< rotation vector in this substep that corrects these errors, rad
+  Vec3<Real> shift_rotation;               ///< rotation vector in this substep that corrects position errors, rad
 };
 
 /// One row of a joint. A linear row constrains the motion along `axis`. If `axis` is 0, the row is angular: it
@@ -302,12 +307,14 @@ struct alignas(8) JointWorkStart {
   alignas(sizeof(Real)) Scaled over_lighter;      ///< reference mass / mass of the lighter of its bodies
   Scaled lighter_over[2];             ///< mass of the lighter body / mass of each body; 0 if the joint does not move it
   Vec3<Real> between;                 ///< from A's centre to B's at the start of the tick, m
-  Real bound[2];  ///< largest impulse in a tick of the motor or spring of each JointAxis / reference mass, m/s
-  Real brake[2];  ///< largest impulses in a tick of linear and of angular friction / reference mass, m/s
-  /// Impulse for each free motion that acts without a row, m/s. When it has been applied, it is added to `given`.
+  Real bound[2];  ///< for each JointAxis: largest impulse of its motor or spring in a tick / reference mass, m/s
+  Real brake[2];  ///< largest impulses of linear and of angular friction in a tick / reference mass, m/s
+  /// For each free motion: the explicit impulse that the next solve applies, m/s. Explicit impulses have no row in the
+  /// system of equations; for example, a motor at its greatest force applies one. The solve then adds it to `given`.
   Real constant[k_free_motions];
-  Real driven_total[k_free_motions];  ///< total impulse of each free motion's row in this substep
-  Real given[k_free_motions];         ///< total impulse of each free motion in this substep that acted without a row
+  Real driven_total[k_free_motions];  ///< impulse of each free motion's present row so far in this substep
+  /// For each free motion: all other impulses in this substep, both explicit ones and those of earlier drive modes.
+  Real given[k_free_motions];
   /// Sums over the tick of the joint's impulses on B, and of its angular impulses on B in B's unit for joints; both in
   /// the units of `power`.
   Vec3<Real> force_sum, torque_sum;
@@ -319,7 +326,8 @@ struct alignas(8) JointWork : JointWorkStart, JointRows {
   /// Softness of the spring of a row, which is added to the row's diagonal element of the matrix; 0 without a spring.
   Real spring[k_joint_rows_max];
   Real target[k_joint_rows_max];                           ///< target speed of each row, m/s
-  /// Lower half of the joint's own block of K + S (lib/joint/joint.h); then L of its factor L D L^T.
+  /// Lower half of the joint's own block of K + S, the matrix of the joint solve (lib/joint/joint.h); then L of the
+  /// block's factor L D L^T.
   Real response[k_joint_rows_max][k_joint_rows_max];
   Real side[k_joint_rows_max];                             ///< right-hand side b of a solve; then L^-1 b
   Real impulse[k_joint_rows_max];                          ///< impulses of the rows that the last solve computed
@@ -343,11 +351,12 @@ struct alignas(8) JointLanes {
 /// fill-in from the elimination of joints between them.
 struct JointCoupling {
   uint32_t joint[2];  ///< first the joint that is eliminated earlier, then the other one
-  /// While the elimination order is computed: the next coupling of each of the two joints, as 2 x coupling + end.
+  /// While the elimination order is computed: for each of the two joints, the next coupling in the joint's list, as
+  /// 2 x coupling + the joint's index (0 or 1) in that coupling.
   /// Afterwards only next[0] is used: the next coupling of joint[0], with a joint that is eliminated still later.
   uint32_t next[2];
   /// Index of the block's first element in JointStage::numbers. The block has as many rows as the first joint, and as
-  /// many columns as the second; with lanes, each row is padded to 4 or 8 numbers.
+  /// many columns as the second; with vector code, each row is padded to 4 or 8 numbers.
   uint32_t block;
 };
 
@@ -357,11 +366,13 @@ struct BodySweep {
   /// A bit of `marks`. It is set if BodyWork::colours of the body has the bit k_has_near.
   static constexpr uint32_t k_mark_near = 64;
   Fraction from;            ///< start of the sweep, as a fraction of the tick
-  Vec3<Real> displacement;  ///< in a whole tick at this velocity, m
-  Vec3<Real> rotation_vector;          ///< in a whole tick at this angular velocity, rad
+  Vec3<Real> displacement;  ///< displacement in a whole tick at the constant velocity, m
+  Vec3<Real> rotation_vector;          ///< rotation vector of a whole tick at the constant angular velocity, rad
   Real speed;                          ///< BodyWork::speed, m/s
   uint32_t impacts;         ///< number of impacts of the body so far in this tick
-  uint32_t marks;           ///< flags of the impact stage: k_mark_stopped, ... (lib/ccd/impact_stage.h)
+  /// Flags of continuous collision (k_mark_stopped and others, lib/ccd/impact_stage.h). For a body with joints, also
+  /// k_mark_jointed (lib/ccd/impact.h) times the number of its island.
+  uint32_t marks;
 };
 
 /// The motion of a body in the tick, while impacts are found. As long as the body has not been hit, only `bound` is
@@ -380,12 +391,12 @@ struct ImpactPair {
   uint64_t key;       ///< pair_key() of the slots
   Fraction time;      ///< time of the pair's next event, as a fraction of the tick
   Fraction last;      ///< time of the pair's last impact
-  Vec3<Real> point;   ///< of the next impact, on A's surface, m, from A's position at that time, world axes
-  Vec3<Unit> normal;  ///< of the next impact, from A to B
+  Vec3<Real> point;   ///< point of the next impact on A's surface, m, from A's position at `time`, world axes
+  Vec3<Unit> normal;  ///< normal of the next impact, from A to B
   uint32_t more[2];   ///< index + 1 of the next pair of the body with the lower, the higher slot; 0: no further pair
   uint8_t next;       ///< kind of the next event: none, impact, undecided time, or new test (lib/ccd/impact_stage.h)
   uint8_t impacts;    ///< number of the pair's impacts so far
-  uint8_t tests;      ///< number of the pair's new tests so far
+  uint8_t tests;      ///< number of new tests (k_next_test) that were planned for the pair so far
   /// 1 after the shrink depth of the pair (lib/ccd/impact_pair.h) was increased, because the pair hit at a seam or the
   /// work budget was spent. From then on the pair's impacts are resolved without such an increase.
   uint8_t farther_in;
@@ -406,7 +417,7 @@ struct SweepSegment {
   uint32_t body;  ///< slot
   uint32_t zero;
   Fraction from;
-  BodyPose start;           ///< at `from`
+  BodyPose start;           ///< pose of the body at the time `from`
   Vec3<Real> displacement;  ///< from `from` to the end of the tick, m
   Vec3<Real> rotation_vector;          ///< from `from` to the end of the tick, rad
 };

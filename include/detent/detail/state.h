@@ -24,7 +24,7 @@ struct alignas(8) BlockHeader {
 };
 
 struct alignas(8) WorldState {
-  uint64_t tick;           ///< ticks completed
+  uint64_t tick;           ///< number of ticks completed
   uint32_t body_count;     ///< bodies alive
   uint32_t slots_used;     ///< number of body slots that have ever been used; all later slots are zero
   uint32_t free_word;      ///< the words of the array `slots` before this index have no free slot
@@ -58,7 +58,7 @@ struct alignas(8) WorldState {
 };
 
 struct BodyPose {
-  Position position;  ///< of the centre of mass, m
+  Position position;  ///< position of the centre of mass, m, world
 #if defined(DETENT_FX32)
   uint16_t remainder[3];  ///< in units of 2^-32 m: the exact coordinate is position + remainder
   uint16_t zero;
@@ -71,15 +71,15 @@ struct BodyMotion {
   /// Of a dynamic body: angular momentum / (mass x 2^size_exponent), m/s. Of a kinematic body: angular velocity x
   /// 2^size_exponent, m/s.
   Vec3<Real> angular_momentum;
-  /// What the forces and torques that were applied since the last step add to the two members above during the next
-  /// step, m/s.
+  /// The changes of linear_velocity and angular_momentum during the next step by the forces and torques that were
+  /// applied since the last step, m/s.
   Vec3<Real> pending_velocity;
   Vec3<Real> pending_angular_momentum;
 };
 
 struct BodyProperties {
   uint32_t type;        ///< BodyType; 0: the slot is empty, and all members but the generation are zero
-  uint32_t generation;  ///< of the body in the slot, or of the last body that was in it
+  uint32_t generation;  ///< generation of the body in the slot, or of the last body that was in it
   uint32_t shape;       ///< ShapeType
   /// The body's unit of length is 2^size_exponent m: the bounding radius lies in [1/2, 1) of this unit.
   int32_t size_exponent;
@@ -149,8 +149,8 @@ struct ContactState {
 struct ManifoldState {
   Vec3<Unit> normal;  ///< from the base to the other body, in the base's axes
   Vec3<Unit> offset;  ///< from the base's centre to the other body's, in the base's axes
-  Quat rotation;      ///< of the other body, in the base's axes
-  /// The separation of each point minus its coordinate along the normal, measured from the base's centre.
+  Quat rotation;      ///< rotation of the other body, relative to the base's axes
+  /// Of each point: its separation minus its coordinate along the normal, relative to the base's centre.
   Unit height[k_manifold_points_max];
   /// The points, from the centre of the other body, in that body's axes, in 2^-15 of that body's unit of length.
   int16_t anchor[k_manifold_points_max][3];
@@ -168,16 +168,16 @@ inline constexpr uint32_t k_joint_rows_max = 6;
 /// and index 1 is JointDef::second.
 struct alignas(8) JointState {
   uint32_t type;        ///< JointType; 0: the slot is empty, and all members but the generation are zero
-  uint32_t generation;  ///< of the joint in the slot, or of the last joint that was in it
+  uint32_t generation;  ///< generation of the joint in the slot, or of the last joint that was in it
   uint32_t body_a;      ///< slot index
   uint32_t body_b;
   uint32_t collide;  ///< 1 if the two bodies collide with each other
   uint32_t user_data;
-  Vec3<Real> anchor_a;  ///< m, in the body's axes
+  Vec3<Real> anchor_a;  ///< from A's centre of mass, m, in A's axes; anchor_b likewise for B
   Vec3<Real> anchor_b;
   Quat frame_a;
   Quat frame_b;
-  Real lower[2];  ///< rad or m
+  Real lower[2];  ///< limits of the two motions, rad or m
   Real upper[2];
   Real frequency[2];
   Real damping_ratio[2];
@@ -188,10 +188,11 @@ struct alignas(8) JointState {
   Scaled friction[2];  ///< JointDef::friction_force, N; JointDef::friction_torque, N m
   Scaled break_force;
   Scaled break_torque;
-  Vec3<Scaled> force;   ///< on B in the last tick, N, world
-  Vec3<Scaled> torque;  ///< on B in the last tick, N m, world
+  Vec3<Scaled> force;   ///< mean force of the joint on B in the last tick, N, world
+  Vec3<Scaled> torque;  ///< mean torque of the joint on B in the last tick, N m, world
   /// Impulses of the joint's rows in the last substep, times (number of substeps) / 2^k_kept_power (lib/joint/joint.h),
-  /// m/s. They do not include the impulses by which the joint follows its curved path. The next tick begins with them.
+  /// m/s. They do not include the impulses by which the joint follows its curved path. The next tick begins with the
+  /// stored impulses.
   Real impulse[k_joint_rows_max];
 };
 

@@ -44,7 +44,7 @@ double mass_of(const Frame& frame) {
   return mass;
 }
 
-/// The diagonal of the dynamic bodies' extent, or the size of the largest if that is greater, m.
+/// The diagonal of the dynamic bodies' extent, plus the size of the largest body, m.
 double span_of(const Frame& frame) {
   Vector low = {1e300, 1e300, 1e300}, high = {-1e300, -1e300, -1e300};
   double size = 0;
