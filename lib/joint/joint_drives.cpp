@@ -14,7 +14,7 @@ constexpr Real k_passed = 0.03125;
 /// k_overdriven, m/s.
 constexpr Real k_overdriven = 0x1p-10;
 /// A limit counts as pulling if its impulse pulls by more than k_pulled, in the unit of its row. A smaller impulse may
-/// be a rounding error: the impulse of a motor that pushes the joint against the limit is not in the limit's row.
+/// be a rounding error of the solve.
 constexpr Real k_pulled = 0x1p-20;
 
 /// The response K of a single row: the change of its speed by a unit impulse, in the joint's unit of impulses.

@@ -113,7 +113,8 @@ struct RowMaker {
   ///
   ///     a = (x_A + x_B) / (1 + cos l)
   ///
-  /// If a exceeds the range of an arm, the row uses the fraction `shown` of a.
+  /// The row stores a as its lever arm. If a exceeds the range of a lever arm, the row stores the fraction `shown` of
+  /// a.
   void free_twist(int i) {
     if (!wants(i)) return;
     const Vec3<Unit> x = {Unit(1.0), k_zero_unit, k_zero_unit}, leaning = rotate(relative, x);

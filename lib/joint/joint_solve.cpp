@@ -32,8 +32,8 @@ constexpr Real k_closing_angular_velocity_max = 16.0;  ///< rad/s
 constexpr int k_gap_power = 20;
 /// A body that has rotated by at most 2^-k_turned_power rad in the tick keeps its inverse inertia in world axes.
 constexpr int k_turned_power = 6;
-/// Limit of the angular velocity of a body times its unit for joints: 2^k_angular_velocity_power_max m/s. A faster body
-/// is slowed down.
+/// Limit of the angular velocity of a body times the unit of length of its joints' rows (JointBody::exponent):
+/// 2^k_angular_velocity_power_max m/s. A body that rotates faster is slowed down.
 constexpr int k_angular_velocity_power_max = 14;
 /// Slowing a body down divides its angular momentum by 2^k_slowing_power, up to k_slowings times.
 constexpr int k_slowings = 16, k_slowing_power = 2;

@@ -127,8 +127,8 @@ struct One {
   }
 };
 
-/// The motions of two bodies as mantissas of one block: the relative linear motion (velocity or displacement), and the
-/// angular motion of each body.
+/// The motions of two bodies, as integers with one common exponent (a block, block.h): the relative linear motion
+/// (velocity or displacement), and the angular motion of each body.
 template <class Kind>
 struct PairMotion {
   typename Kind::Block block;

@@ -72,7 +72,7 @@ inline constexpr uint64_t k_has_near = uint64_t{1} << 63;
 /// A body during the substeps. Members from `axes` to `speed` are set at the start of the tick; joints may change
 /// `inverse_inertia` in a substep.
 struct alignas(8) BodyWork {
-  uint64_t colours;     ///< bit set of the colours of the body's contacts, and k_has_near
+  uint64_t colours;     ///< bit set of the colours of the body's contacts, with the flag k_has_near
   uint32_t island;      ///< while islands are found: a link towards the island's first body; then the island's index
   /// While islands are found: a link towards the first body of the body's run; afterwards work space. A *run* is a
   /// chain of dynamic bodies with at most two contacts each.
