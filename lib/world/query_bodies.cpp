@@ -53,10 +53,12 @@ Pose pose_near(const BodyProperties& properties, const BodyPose& pose, const Pos
       abs(real_difference(place.y, pose.position.y)) < k_near &&
       abs(real_difference(place.z, pose.position.z)) < k_near)
     return whole;
-  // A height above the plane that is beyond the reach of the query may be clamped, because the query finds nothing at
-  // either height.
+  // A height above the plane that is beyond the reach of a query may be clamped, because the query finds nothing at
+  // either height. A displacement is shorter than 2^14 sqrt(3) m, and a bounding radius is below 2^15 m: together they
+  // are shorter than 2^16 m.
+  constexpr Real k_height_max = 65535.0;
   const Vec3<Unit> up = matrix_from(pose.rotation).column[1];
-  const Real height = clamp(distance_along(pose.position, place, up), -k_near, k_near);
+  const Real height = clamp(distance_along(pose.position, place, up), -k_height_max, k_height_max);
   return {moved(place, up * -height), pose.rotation};
 }
 

@@ -621,6 +621,33 @@ DETENT_TEST(query, a_plane_is_hit_however_far_its_position_is) {
 }
 #endif
 
+#if !defined(DETENT_FX32)
+/// A ball of 16 km, 40 km above a plane that leans in all directions, moves 28 km towards it: nearly as far as is
+/// legal.
+DETENT_TEST(query, a_large_ball_hits_a_plane_from_high_above) {
+  Place place({1, 1, 2});
+  const double part = 16383, way = part * sqrt(3.0), angle = acos(1 / sqrt(3.0));
+  BodyDef ground;
+  ground.type = BodyType::fixed;
+  ground.shape = half_space();
+  // Rotates the y axis to (1, 1, 1) / sqrt(3).
+  const double sine = sin(angle / 2) / sqrt(2.0);
+  ground.rotation = rotation_near({sine, 0, -sine, cos(angle / 2)});
+  place.add(ground);
+  for (const double height : {30e3, 40e3, 60e3}) {
+    CastQuery cast;
+    cast.shape = sphere(Real(16000.0));
+    const double at = height / sqrt(3.0);
+    cast.position = position_near({{at, at, at}});
+    cast.displacement = reals_near({{-part, -part, -part}});
+    const Answer answer = ask(query_cast, place.world, cast);
+    const double fraction = (height - 16000) / way;
+    ASSERT_EQ(answer.hits.size(), fraction < 1 ? 1u : 0u) << height;
+    if (fraction < 1) EXPECT_NEAR(fraction_to_host(answer.hits[0].fraction), fraction, 1e-4) << height;
+  }
+}
+#endif
+
 DETENT_TEST(query, what_is_out_of_range_is_refused_and_writes_nothing) {
   Place place = make_row(2);
   QueryHit hit;
