@@ -54,22 +54,28 @@ void visit(F& fields, WorldDef& world) {
   fields.real({"tick", "the time of one step, s", between(0x1p-14, 0.25)}, world.tick);
   fields.integer({"substeps", "number per tick; 0: chosen for each island", between(0, 64)}, world.substeps);
   fields.integer({"substeps_max", "greatest number that is chosen", between(1, 64)}, world.substeps_max);
-  fields.real({"resting_penetration", "depth of contacts at rest, over the smaller extent", between(0x1p-12, 0x1p-3)},
+  fields.real({"resting_penetration", "depth of contacts at rest, divided by the smaller extent of the two bodies",
+               between(0x1p-12, 0x1p-3)},
               world.resting_penetration);
   fields.integer({"iterations", "sweeps over the contacts per substep", between(1, 64)}, world.iterations);
-  fields.integer({"convergence", "sweeps end early below 2^-convergence", between(0, 30)}, world.convergence);
+  fields.integer(
+      {"convergence", "sweeps end early when no velocity changes by more than 2^-convergence of gravity x substep",
+       between(0, 30)},
+      world.convergence);
   fields.choice({"stabilisation", "how overlap is removed"}, world.stabilisation, k_stabilisations);
   fields.real({"relaxation", "over-relaxation factor of the SOR solver", between(0.25, 1.75)}, world.relaxation);
-  fields.real({"contact_frequency", "contact frequency over the substep rate", between(1.0 / 64, 0.25)},
+  fields.real({"contact_frequency", "frequency of soft contacts, divided by the substep rate", between(1.0 / 64, 0.25)},
               world.contact_frequency);
   fields.real({"damping_ratio", "of the soft contacts", between(0, 64)}, world.damping_ratio);
   fields.real({"restitution_threshold", "slowest rebound, in sqrt(g x smaller extent)", between(0, 64)},
               world.restitution_threshold);
   fields.flag({"continuous", "no body passes through another"}, world.continuous);
   fields.flag({"sleeping", "bodies at rest fall asleep"}, world.sleeping);
-  fields.real({"contact_margin", "greatest gap of contact points, over the smaller extent", between(0x1p-10, 0x1p-4)},
+  fields.real({"contact_margin", "greatest gap of contact points, divided by the smaller extent of the two bodies",
+               between(0x1p-10, 0x1p-4)},
               world.contact_margin);
-  fields.real({"contact_recycle_distance", "motion up to which contact points are recycled, over the smaller extent",
+  fields.real({"contact_recycle_distance",
+               "motion up to which contact points are recycled, divided by the smaller extent of the two bodies",
                between(0, 1.0 / 64)},
               world.contact_recycle_distance);
   fields.choice({"reduction", "which contact points are kept"}, world.reduction, k_reductions);
@@ -81,8 +87,10 @@ void visit(F& fields, Material& material) {
                                                  {"smaller", RestitutionRule::smaller}};
   fields.real({"friction", "Coulomb's coefficient", between(0, 16)}, material.friction);
   fields.real({"restitution", "rebound speed over approach speed", between(0, 1)}, material.restitution);
-  fields.real({"rolling_resistance", "torque over (normal force x smaller radius)", between(0, 16)},
-              material.rolling_resistance);
+  fields.real(
+      {"rolling_resistance", "greatest torque, divided by (normal force x half the smaller extent of the two bodies)",
+       between(0, 16)},
+      material.rolling_resistance);
   fields.choice({"restitution_rule", "which of two restitutions a pair takes; one `smaller` decides"},
                 material.restitution_rule, k_rules);
 }
@@ -95,7 +103,8 @@ void visit(F& fields, Shape& shape) {
       {"half_space", ShapeType::half_space}, {"compound", ShapeType::compound}, {"terrain", ShapeType::terrain},
   };
   if (!fields.tag({"type", "which shape"}, shape.type, k_types)) return;
-  const SceneField rounding = {"rounding", "grown by a ball of this radius, m; 0, or a size", k_size_or_zero};
+  const SceneField rounding = {"rounding", "radius of the rounding, by which the shape grows, m; 0, or a size",
+                               k_size_or_zero};
   const SceneField half_length = required({"half_length", "along y, m: half of the height", k_size});
   switch (shape.type) {
     case ShapeType::sphere:
@@ -132,9 +141,9 @@ template <class F>
 void visit(F& fields, Filter& filter) {
   fields.integer({"category", "bits: what the body is", k_word}, filter.category);
   fields.integer({"mask", "bits: the categories that it touches", k_word}, filter.mask);
-  fields.integer(
-      {"group", "of equal groups, positive ones touch and negative ones do not", between(-2147483648.0, 2147483647.0)},
-      filter.group);
+  fields.integer({"group", "two bodies of the same group always collide if it is positive, and never if it is negative",
+                  between(-2147483648.0, 2147483647.0)},
+                 filter.group);
 }
 
 template <class F>

@@ -341,7 +341,7 @@ void write_out_repeats(Node& scene, std::vector<Problem>& problems) {
 }
 
 std::vector<FieldInfo> repeat_fields() {
-  return {object_field("repeat", "number of copies: Repeats", "repeat"),
+  return {object_field("repeat", "number of copies of the entry, see Repeats", "repeat"),
           object_field("step", "with `repeat`: from copy to copy", "step"),
           object_field("revolve", "with `repeat`: a rotation, applied after the steps", "revolve")};
 }
