@@ -302,8 +302,9 @@ void renew_response(const WorldInverseInertia& a, const WorldInverseInertia& b, 
     work.response[i] = fine(unit_from_real(response.part[i], work.response_exponent));
   couple(response, work);
   work.friction_mass = fine(mass_of(greatest_response(response, k_along_first)));
-  if (work.angular_rows != 0) work.twist_mass = fine(angular_mass_of(own(k_about_normal)));
-  if (work.angular_rows == 3) work.rolling_mass = fine(angular_mass_of(greatest_response(response, k_about_first)));
+  const Scaled none = 0.0;
+  work.twist_mass = work.angular_rows != 0 ? fine(angular_mass_of(own(k_about_normal))) : none;
+  work.rolling_mass = work.angular_rows == 3 ? fine(angular_mass_of(greatest_response(response, k_about_first))) : none;
 }
 
 void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b, const ContactGeometry& geometry,
