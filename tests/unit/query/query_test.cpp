@@ -622,8 +622,8 @@ DETENT_TEST(query, a_plane_is_hit_however_far_its_position_is) {
 #endif
 
 #if !defined(DETENT_FX32)
-/// A ball of 16 km, 40 km above a plane that leans in all directions, moves 28 km towards it: nearly as far as is
-/// legal.
+/// A ball of 16 km, 30 to 60 km above a plane that leans in all directions, moves 28 km towards it: nearly as far as is
+/// legal. From 60 km it does not reach the plane.
 DETENT_TEST(query, a_large_ball_hits_a_plane_from_high_above) {
   Place place({1, 1, 2});
   const double part = 16383, way = part * sqrt(3.0), angle = acos(1 / sqrt(3.0));

@@ -82,7 +82,8 @@ DETENT_TEST(lanes, that_are_asked_for_solve_every_contact) {
     build(one, 1);
     build(asked, 1);
 #if defined(__x86_64__) && !defined(DETENT_F64)
-    if (one.world.lanes < lanes) GTEST_SKIP() << "this machine takes fewer than " << lanes << " contacts at a time";
+    if (one.world.lanes == 1) GTEST_SKIP() << "this machine takes one contact at a time";
+    if (one.world.lanes < lanes) continue;  // an error of the caller
 #endif
     one.world.lanes = 1;
     asked.world.lanes = lanes;
