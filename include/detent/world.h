@@ -161,8 +161,8 @@ struct WorldHooks {
 struct World {
   uint8_t* block = nullptr;                ///< the block passed to create_world()
   const FeatureTable* features = nullptr;  ///< the features passed to create_world()
-  /// The largest number of contacts that the solver processes at once, in vector registers: 1, 4 or 8.
-  /// create_world() sets what this machine supports: 8 on x86-64 (in fixed point only with AVX-512, else 4), 4 in
+  /// The largest number of contacts that the solver processes at once, in vector registers: 1, 4 or 8. create_world()
+  /// sets what this machine supports: 8 on x86-64 (in fixed point only with AVX-512 and not on Windows, else 4), 4 in
   /// other builds with vector code, else 1. The results are bit-identical. Do not set more than this machine supports.
   uint32_t lanes = 1;
   /// The hooks passed to create_world(). They may be changed between calls, but the assets and filter rules that bodies
