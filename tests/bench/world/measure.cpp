@@ -70,6 +70,10 @@ class Course {
   }
 
   WorldFindings run(const std::vector<Contestant>& contestants) {
+    if (windows_.empty()) {
+      findings_.left_out.push_back("measurements: none begins before tick " + std::to_string(plan_.ticks_max));
+      return std::move(findings_);
+    }
     total_ = uint64_t{plan_.repetitions + 1} * contestants.size() * end_;
     for (const Contestant& contestant : contestants) enter(contestant);
     total_ = done_ + uint64_t{plan_.repetitions} * entries_.size() * end_;
