@@ -67,7 +67,7 @@ inline constexpr Config k_config = Config::f64;
 
 /// The simulation version. It increases with every change of the library that can alter the result of a step, and
 /// thereby a digest. Stored in snapshots and recordings.
-inline constexpr uint32_t k_simulation_version = 35;
+inline constexpr uint32_t k_simulation_version = 36;
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

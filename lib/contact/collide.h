@@ -46,7 +46,7 @@ struct ContactGeometry {
 };
 
 /// Returns the depth of the deepest point, m; negative if the surfaces are apart at all points. Range: count > 0.
-inline Real depth_of(const ContactGeometry& geometry) {
+DETENT_SHARED inline Real depth_of(const ContactGeometry& geometry) {
   Real least = geometry.point[0].separation;
   for (uint32_t i = 1; i < geometry.count; ++i) least = min(least, geometry.point[i].separation);
   return -least;

@@ -4,6 +4,12 @@
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// Adds an impulse, without overflow.
+void add(Real more, Real& sum) { sum += min(more, k_real_max - sum); }
+
+}  // namespace
 
 uint32_t shared_features(const ContactGeometry& geometry, const ContactState& contact) {
   uint32_t count = 0;
@@ -54,15 +60,28 @@ ContactState continued_contact(uint32_t body_a, uint32_t body_b, uint32_t part, 
   if (before == nullptr) return contact;
   contact.age = before->age == UINT16_MAX ? before->age : static_cast<uint16_t>(before->age + 1);
   contact.touching = before->touching;
-  contact.friction_impulse = before->friction_impulse;
   contact.angular_impulse = before->angular_impulse;
+  contact.friction_impulse = before->friction_impulse;
   contact.load = before->load;
+  take_impulses(*before, contact);
+  return contact;
+}
+
+uint32_t heir_of(const ContactState& before, const TerrainContacts& found) {
+  uint32_t heir = UINT32_MAX;
+  for (uint32_t i = found.count; i-- > 0;) {
+    if (found.contact[i].key == before.part) return UINT32_MAX;
+    if (shared_features(found.contact[i].geometry, before) != 0) heir = i;
+  }
+  return heir;
+}
+
+void take_impulses(const ContactState& before, ContactState& contact) {
   for (uint32_t i = 0; i < contact.point_count; ++i) {
-    for (uint32_t j = 0; j < before->point_count; ++j) {
-      if (before->feature[j] == contact.feature[i]) contact.normal_impulse[i] = before->normal_impulse[j];
+    for (uint32_t j = 0; j < before.point_count; ++j) {
+      if (before.feature[j] == contact.feature[i]) add(before.normal_impulse[j], contact.normal_impulse[i]);
     }
   }
-  return contact;
 }
 
 uint32_t remove_contacts(uint32_t body, Span<ContactState> contacts, Span<ManifoldState> manifolds) {

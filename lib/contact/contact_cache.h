@@ -34,6 +34,15 @@ void continue_keys(const PairBefore& before, TerrainContacts& contacts);
 ContactState continued_contact(uint32_t body_a, uint32_t body_b, uint32_t part, const ContactGeometry& geometry,
                                const ContactState* before);
 
+/// A contact may end while points that bore its load are still touched, as points of another contact of the pair.
+/// Returns the index of the first contact in `found` that has such a point; UINT32_MAX if there is none, or if a
+/// contact has the key of `before`. Range: continue_keys() has been called.
+uint32_t heir_of(const ContactState& before, const TerrainContacts& found);
+
+/// Adds the normal impulses of another contact of the pair in the last tick, `before`, to the points of `contact` that
+/// have the same features.
+void take_impulses(const ContactState& before, ContactState& contact);
+
 /// Removes the contacts of a body, and their manifolds if `manifolds` is not empty. The other contacts move to the
 /// front and keep their order; the elements after them are set to zero. Returns the number of contacts left.
 uint32_t remove_contacts(uint32_t body, Span<ContactState> contacts, Span<ManifoldState> manifolds);

@@ -6,7 +6,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// Returns a view of the body's terrain (mesh or height field). Range: the body has terrain.
-inline Terrain terrain_of(const BodyProperties& properties, const AssetTable& assets) {
+DETENT_SHARED inline Terrain terrain_of(const BodyProperties& properties, const AssetTable& assets) {
   return terrain_view(assets.assets[properties.asset].bytes);
 }
 

@@ -221,7 +221,7 @@ bool is_angular(JointType type, int motion);
 /// meaning, except the spring of a ball joint.
 int free_motion_count(JointType type);
 /// Whether the joint is a ball joint with a spring, which acts on all its rotations.
-inline bool has_ball_spring(const JointState& joint) {
+DETENT_SHARED inline bool has_ball_spring(const JointState& joint) {
   return static_cast<JointType>(joint.type) == JointType::ball && joint.frequency[0] > k_zero;
 }
 /// Number of free motions that can be driven. This includes rotations that only friction or the spring of a ball joint

@@ -163,11 +163,16 @@ void choose_unit([[maybe_unused]] const JointStage& stage, JointWork& work) {
       response[k] += speed[k];
     }
   }
-  Real most[2] = {k_zero, k_zero};
+  Real most[2] = {-1.0, -1.0};  // greatest response of each kind; negative if the joint has no rows of this kind
   for (uint32_t k = 0; k < work.rows; ++k) most[row_kind(work, k)] = max(most[row_kind(work, k)], response[k]);
   for (int kind = 0; kind < 2; ++kind) {
     const int wanted = (k_joint_response_bits - exponent_above(most[kind])) / 2;
     work.power[kind] = wanted < k_power_max ? wanted : k_power_max;
+    if (most[kind] < k_zero) continue;
+    for (const uint32_t at : work.body) {
+      JointBody& body = stage.bodies[at];
+      if (body.power < impulse_power(work, kind)) body.power = impulse_power(work, kind);
+    }
   }
 #endif
 }

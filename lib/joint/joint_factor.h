@@ -97,12 +97,12 @@ inline constexpr Real k_solved_max = k_solution_max * Real(4.0);
 /// Limit of the velocity change of a body by its joints, m/s. The sum of two such values fits a Real.
 inline constexpr Real k_gathered_max = 65504.0;
 
-/// Adds the velocity changes M^-1 J^T x of a joint's impulses x to `push` and `twist` of its mobile bodies. Returns
-/// false if a value exceeds k_gathered_max. Range: |x| <= k_solution_max.
+/// Adds the impulses J^T x of a joint's rows to `push` and `twist` of its mobile bodies, in the unit of each body,
+/// 2^JointBody::power reference masses times m/s. Returns false if a sum exceeds k_gathered_max in fixed point. Range:
+/// |x| <= k_solution_max.
 #if DETENT_JOINT_LANES
 inline bool gather(const JointStage& stage, const JointWork& work) {
   const JointLanes& lanes = lanes_of(stage, work);
-  bool fits = true;
   for (uint32_t end = 0; end < 2; ++end) {
     JointBody& body = stage.bodies[work.body[end]];
     if (body.mobile == 0) continue;
@@ -116,20 +116,15 @@ inline bool gather(const JointStage& stage, const JointWork& work) {
         torque += load_four(lanes.row[end][k] + k_rows_of_four) * impulse;
       }
     });
-    const Real share = end == 0 ? -body.inverse_mass : body.inverse_mass;
     // The fourth lane is the next member of JointBody: `pushed`, or an element of kept_rotation. 0 is added to it.
-    const RowFour push = load_four(&body.push.x) + force * spread(share);
-    const RowFour twist = load_four(&body.twist.x) + torque * spread(scaled_by_power(share, body.above));
-    store_four(push, &body.push.x);
-    store_four(twist, &body.twist.x);
-    if (!are_within(push, k_gathered_max, k_sizes_of_three) || !are_within(twist, k_gathered_max, k_sizes_of_three))
-      fits = false;
+    const RowFour push = load_four(&body.push.x), twist = load_four(&body.twist.x);
+    store_four(end == 0 ? push - force : push + force, &body.push.x);
+    store_four(end == 0 ? twist - torque : twist + torque, &body.twist.x);
   }
-  return fits;
+  return true;
 }
 #else
 inline bool gather(const JointStage& stage, const JointWork& work) {
-  JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
   constexpr int k_kinds = DETENT_FIXED ? 2 : 1;  // kinds of rows with their own unit: linear, angular
   int kinds = 1;                                 // 2 if the joint has angular rows
   Vec3<Real> force = k_zero_vector, torque[k_kinds][2] = {};
@@ -147,29 +142,52 @@ inline bool gather(const JointStage& stage, const JointWork& work) {
     for (int end = 0; end < 2; ++end) torque[kind][end] += row.arm[end] * work.impulse[k];
   }
   bool fits = true;
-  const auto add = [&](JointBody& body, const Vec3<Real>& sum, int power, Vec3<Real>& to) {
-    const Scaled factor = scaled_by_power(body.inverse_mass, power);
-#if DETENT_FIXED
-    bool saturated = false;
-    const Vec3<Real> v = multiply(sum, factor, saturated);
-    fits = fits && !saturated && greatest(v) <= k_gathered_max;
-    if (!fits) return;  // the sum with `to` could overflow
-#else
-    const Vec3<Real> v = multiply(sum, factor);
-#endif
-    to += v;
-    fits = fits && greatest(to) <= k_gathered_max;
-  };
   for (int end = 0; end < 2; ++end) {
-    JointBody& body = end == 0 ? a : b;
+    JointBody& body = stage.bodies[work.body[end]];
     if (body.mobile == 0) continue;
-    add(body, end == 0 ? -force : force, impulse_power(work, 0), body.push);
-    for (int kind = 0; kind < kinds; ++kind)
-      add(body, end == 0 ? -torque[kind][end] : torque[kind][end], impulse_power(work, kind) + body.above, body.twist);
+    const auto add = [&]([[maybe_unused]] int kind, const Vec3<Real>& sum, Vec3<Real>& to) {
+#if DETENT_FIXED
+      const Vec3<Real> part = scale_by_power(sum, impulse_power(work, kind) - body.power);
+#else
+      const Vec3<Real>& part = sum;
+#endif
+      if (end == 0)
+        to -= part;
+      else
+        to += part;
+      fits = fits && (!DETENT_FIXED || greatest(to) <= k_gathered_max);
+    };
+    add(0, force, body.push);
+    for (int kind = 0; kind < kinds; ++kind) add(kind, torque[kind][end], body.twist);
+    if (!fits) return false;  // a further sum could overflow
   }
-  return fits;
+  return true;
 }
 #endif
+
+/// Converts the impulses that gather() has added to a body's `push` and `twist` to changes of its velocity and angular
+/// momentum. Returns false if one exceeds k_gathered_max.
+inline bool convert_impulses(JointBody& body) {
+#if DETENT_JOINT_LANES
+  // The fourth lane, the next member of JointBody, is multiplied by 1.
+  const Real mass = body.inverse_mass, angular = scale_by_power(mass, body.above);
+  const RowFour push = load_four(&body.push.x) * RowFour{mass, mass, mass, 1};
+  const RowFour twist = load_four(&body.twist.x) * RowFour{angular, angular, angular, 1};
+  store_four(push, &body.push.x);
+  store_four(twist, &body.twist.x);
+  return are_within(push, k_gathered_max, k_sizes_of_three) && are_within(twist, k_gathered_max, k_sizes_of_three);
+#else
+  bool saturated = false, fits = true;
+  Scaled factor = scaled_by_power(body.inverse_mass, body.power);
+  Vec3<Real>* const sums[] = {&body.push, &body.twist};
+  for (Vec3<Real>* const sum : sums) {
+    *sum = multiply(*sum, factor, saturated);
+    fits = fits && greatest(*sum) <= k_gathered_max;
+    factor = scaled_by_power(factor, body.above);
+  }
+  return fits && !saturated;
+#endif
+}
 
 /// Chooses the units of a joint's impulses, 2^power reference masses x m/s, such that the responses of the joint's rows
 /// are near 2^5. Then the impulses between heavy bodies stay in range, even in an assembly with light bodies. Range:

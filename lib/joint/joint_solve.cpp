@@ -379,7 +379,8 @@ struct Solver {
     bool fits = true;
     each_mobile([&](JointBody& body) { body.push = body.twist = k_zero_vector; });
     each_joint([&](const JointWork& work) { fits = fits && gather(stage, work); });
-    each_mobile([&](const JointBody& body) { fits = fits && angular_velocities_within(body, body.twist); });
+    each_mobile(
+        [&](JointBody& body) { fits = fits && convert_impulses(body) && angular_velocities_within(body, body.twist); });
     return fits;
   }
   void scale_impulses(Scaled share) {

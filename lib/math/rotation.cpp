@@ -1,5 +1,7 @@
 #include "math/rotation.h"
 
+#include "base/cycle.h"
+
 #if DETENT_FIXED
 #include "math/rotation_integer.h"
 #endif
@@ -25,6 +27,9 @@ constexpr Vec3<Unit> units_of(const Vec32& v) {
   return {Unit::from_raw(v.x), Unit::from_raw(v.y), Unit::from_raw(v.z)};
 }
 
+[[maybe_unused]] Unit sum_of_products(Unit a, Unit b, Unit c, Unit d) {
+  return unit_from_product(unit_product(a, b) + unit_product(c, d));
+}
 uint64_t square_of(const Quat& q) {
   return unit_product(q.x, q.x) + unit_product(q.y, q.y) + unit_product(q.z, q.z) + unit_product(q.w, q.w);
 }
@@ -83,6 +88,7 @@ Matrix3 matrix_from(const Quat& q) {
 #else
 namespace {
 
+constexpr Unit sum_of_products(Unit a, Unit b, Unit c, Unit d) { return a * b + c * d; }
 constexpr Unit sum_of_products(Unit a, Unit b, Unit c, Unit d, Unit e, Unit f, Unit g, Unit h) {
   return a * b + c * d + e * f + g * h;
 }
@@ -135,6 +141,22 @@ Matrix3 matrix_from(const Quat& q) {
 
 Vec3<Unit> rotate_inverse(const Quat& q, const Vec3<Unit>& v) { return rotate(conjugate(q), v); }
 
+Quat multiply_about(const Quat& q, int axis, Unit sine, Unit cosine) {
+#if DETENT_FIXED && defined(__OPTIMIZE_SIZE__)
+  Unit part[3] = {0.0, 0.0, 0.0};
+  part[axis] = sine;
+  return multiply(q, Quat{part[0], part[1], part[2], cosine});
+#else
+  const Unit v[3] = {q.x, q.y, q.z};
+  const int next = next_of_three(axis), last = previous_of_three(axis);
+  Unit product[3];
+  product[axis] = sum_of_products(v[axis], cosine, q.w, sine);
+  product[next] = sum_of_products(v[next], cosine, v[last], sine);
+  product[last] = sum_of_products(v[last], cosine, -v[next], sine);
+  return {product[0], product[1], product[2], sum_of_products(q.w, cosine, -v[axis], sine)};
+#endif
+}
+
 Quat rotation_about(const Vec3<Unit>& axis, Angle angle) {
   Unit sine;
   Unit cosine;
@@ -146,15 +168,12 @@ Quat rotation_about(const Vec3<Unit>& axis, Angle angle) {
 namespace {
 
 /// The rotation by |theta| rad about theta, by a series. This costs less than a root and a sine, and in f32 the error
-/// is small relative to the angle. Range: the components of theta are below 2^-4. The omitted terms are below 2^-34.
+/// is small relative to the angle. Range: the components of theta are below k_series_angle_max.
 Quat small_rotation(const Vec3<Real>& theta) {
-  const Vec3<Unit> t = unit_from_real(theta, -3);
-  const Unit s = dot(t, t);  // 64 |theta|^2 < 3/4
-  // sin(|theta|/2) / |theta| = 1/2 - |theta|^2/48 + |theta|^4/3840; cos = 1 - |theta|^2/8 + |theta|^4/384
-  const Unit factor = Unit(0.5) - Unit(1.0 / 3072) * (s * (Unit(1.0) - Unit(1.0 / 5120) * s));
-  const Unit cosine = Unit(1.0) - scale_by_power(s * (Unit(1.0) - Unit(1.0 / 3072) * s), -9);
-  const Vec3<Real> v = theta * factor;
-  return {unit_from_real(v.x, 0), unit_from_real(v.y, 0), unit_from_real(v.z, 0), cosine};
+  const Vec3<Unit> eightfold = unit_from_real(theta, -3);
+  const HalfAngleSeries series = half_angle_series(dot(eightfold, eightfold));
+  const Vec3<Real> v = theta * series.sine_ratio;
+  return {unit_from_real(v.x, 0), unit_from_real(v.y, 0), unit_from_real(v.z, 0), series.cosine};
 }
 
 /// The rotation vector of q, rad, by a series. Range: the components of q's vector part are below 2^-5, w > 0. The
@@ -178,7 +197,7 @@ constexpr bool all_below(const Vec3<T>& v, T limit) {
 
 Quat rotation_from_vector(const Vec3<Real>& theta) {
 #if !defined(DETENT_F64)
-  if (all_below(theta, Real(0.0625))) return small_rotation(theta);
+  if (all_below(theta, k_series_angle_max)) return small_rotation(theta);
   Vec3<Unit> axis;
   Real angle;
   if (!normalise(theta, axis, angle)) return k_identity;  // does not occur: theta is not short

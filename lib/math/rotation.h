@@ -10,6 +10,9 @@ inline constexpr Quat k_identity = {Unit(0.0), Unit(0.0), Unit(0.0), Unit(1.0)};
 
 /// The product a b: the rotation b followed by the rotation a. Rounding: each component once (float: each operation).
 Quat multiply(const Quat& a, const Quat& b);
+/// The product of q and the rotation about coordinate axis `axis` that has these `sine` and `cosine` of half its angle.
+/// Rounding: as multiply().
+Quat multiply_about(const Quat& q, int axis, Unit sine, Unit cosine);
 constexpr Quat conjugate(const Quat& q) { return {-q.x, -q.y, -q.z, q.w}; }
 /// Scales q to length 1. Range: | |q|^2 - 1 | < 2^-8.
 Quat normalise(const Quat& q);

@@ -36,6 +36,13 @@ void sine_cosine_of_half(Angle angle, Unit& sine, Unit& cosine) {
 }
 
 void sine_cosine_of_half_radians(Real angle, Unit& sine, Unit& cosine) {
+  if (abs(angle) < k_series_angle_max) {
+    const Unit eightfold = unit_from_real(angle, -3);
+    const HalfAngleSeries series = half_angle_series(eightfold * eightfold);
+    sine = unit_from_real(angle * series.sine_ratio, 0);
+    cosine = series.cosine;
+    return;
+  }
   set(sine_cosine_raw(turns_from_radians_raw(radians_q46(angle), 1)), sine, cosine);
 }
 

@@ -34,6 +34,20 @@ void sine_cosine_of_half(Angle angle, Unit& sine, Unit& cosine);
 /// the effect of an error of 2^-34 turns in the angle.
 void sine_cosine_of_half_radians(Real angle, Unit& sine, Unit& cosine);
 
+#if !defined(DETENT_F64)
+/// The sine of half an angle divided by the angle, and the cosine of half the angle, by series. `square`: 64 times the
+/// square of the angle, rad. Range: square < 3/4. The omitted terms are below 2^-34.
+struct HalfAngleSeries {
+  Unit sine_ratio, cosine;
+};
+constexpr HalfAngleSeries half_angle_series(Unit square) {
+  // sin(a/2) / a = 1/2 - a^2/48 + a^4/3840; cos(a/2) = 1 - a^2/8 + a^4/384
+  return {Unit(0.5) - Unit(1.0 / 3072) * (square * (Unit(1.0) - Unit(1.0 / 5120) * square)),
+          Unit(1.0) - scale_by_power(square * (Unit(1.0) - Unit(1.0 / 3072) * square), -9)};
+}
+inline constexpr Real k_series_angle_max = 0.0625;  ///< angles below this, rad, are in the range of half_angle_series()
+#endif
+
 /// Converts an angle in rad to an Angle, modulo one turn (f64: not reduced). Range: |angle| <= 2^17 rad. Rounding: to
 /// nearest; error at most (1/2 + 2^-16) 2^-32 turns.
 Angle angle_from_radians(Real angle);

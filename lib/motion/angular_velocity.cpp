@@ -7,6 +7,16 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
+/// A body that rotates by at most about 2^-k_slow_power rad is rotated once by rotate_freely(), not four times: the
+/// rotations commute except for half the product of two of their angles, which is below the precision of a Quat.
+#if defined(DETENT_F64)
+constexpr int k_slow_power = 29;
+#elif defined(DETENT_F32)
+constexpr int k_slow_power = 14;
+#else
+constexpr int k_slow_power = 17;
+#endif
+
 struct BodyFrame {
   Quat rotation;
   Real angular_momentum[3];  ///< in the body's axes
@@ -16,15 +26,11 @@ struct BodyFrame {
 /// about that axis, m/s at the radius 2^exponent m. The angular momentum stays constant in world axes. Sets `clamped`
 /// if the angular velocity or the angle leaves its range.
 void rotate_about(int axis, Scaled rate, int exponent, Real time, BodyFrame& frame, bool& clamped) {
-  bool saturated = false;
-  const Real angular_velocity = multiply(frame.angular_momentum[axis], rate, saturated);
+  const Real angular_velocity = multiply(frame.angular_momentum[axis], rate, clamped);
   const Real angle = angle_of(angular_velocity * time, exponent, clamped);
-  clamped = clamped || saturated;
   Unit sine = 0.0, cosine = 1.0;
   sine_cosine_of_half_radians(angle, sine, cosine);
-  Unit part[3] = {0.0, 0.0, 0.0};
-  part[axis] = sine;
-  frame.rotation = multiply(frame.rotation, Quat{part[0], part[1], part[2], cosine});
+  frame.rotation = multiply_about(frame.rotation, axis, sine, cosine);
   const Unit sine_whole = scale_by_power(sine * cosine, 1);
   const Unit cosine_whole = cosine * cosine - sine * sine;
   Real& next = frame.angular_momentum[next_of_three(axis)];
@@ -35,19 +41,6 @@ void rotate_about(int axis, Scaled rate, int exponent, Real time, BodyFrame& fra
 }
 
 Scaled difference(Scaled a, Scaled b) { return a == b ? Scaled(0.0) : add(a, negate(b)); }
-Scaled distance(Scaled a, Scaled b) { return less(a, b) ? difference(b, a) : difference(a, b); }
-
-/// The axis whose inverse inertia differs most from the other two.
-int odd_axis(const Scaled (&inverse_inertia)[3]) {
-  if (inverse_inertia[1] == inverse_inertia[2]) return 0;
-  if (inverse_inertia[2] == inverse_inertia[0]) return 1;
-  if (inverse_inertia[0] == inverse_inertia[1]) return 2;
-  const Scaled apart[3] = {distance(inverse_inertia[1], inverse_inertia[2]),
-                           distance(inverse_inertia[2], inverse_inertia[0]),
-                           distance(inverse_inertia[0], inverse_inertia[1])};
-  const int least = less(apart[1], apart[0]) ? 1 : 0;
-  return less(apart[2], apart[least]) ? 2 : least;
-}
 
 /// Returns `rotation` rotated for `time`, s, with the constant `angular_velocity`: m/s at the radius 2^exponent m,
 /// world axes. Sets `clamped` if a component of the rotation vector is clamped by angle_of().
@@ -71,10 +64,18 @@ Scaled rotational_energy(const BodyProperties& properties, const Vec3<Real>& loc
 FreeRotation free_rotation_of(const BodyProperties& properties) {
   FreeRotation free = {Scaled(0.0), Scaled(0.0), Scaled(0.0), 0};
   if (!is_dynamic(properties) || is_isotropic(properties)) return free;
-  free.odd = odd_axis(properties.inverse_inertia);
-  free.common = properties.inverse_inertia[next_of_three(free.odd)];
-  free.odd_rate = difference(properties.inverse_inertia[free.odd], free.common);
-  free.rest = difference(properties.inverse_inertia[previous_of_three(free.odd)], free.common);
+  const Scaled(&inverse_inertia)[3] = properties.inverse_inertia;
+  Scaled apart[3], distance[3];  // of the two axes that follow each axis in the cycle
+  for (int i = 0; i < 3; ++i) {
+    apart[i] = difference(inverse_inertia[next_of_three(i)], inverse_inertia[previous_of_three(i)]);
+    distance[i] = is_positive(apart[i]) ? apart[i] : negate(apart[i]);
+  }
+  // The axis whose inverse inertia differs most from the other two.
+  free.odd = less(distance[1], distance[0]) ? 1 : 0;
+  if (less(distance[2], distance[free.odd])) free.odd = 2;
+  free.common = inverse_inertia[next_of_three(free.odd)];
+  free.odd_rate = apart[previous_of_three(free.odd)];
+  free.rest = negate(apart[free.odd]);
   return free;
 }
 
@@ -92,6 +93,12 @@ bool rotate_freely(const BodyProperties& properties, const FreeRotation& free, c
   const Vec3<Real> local = rotate_inverse(rotation, angular_momentum);
   angular_velocity = rotate(rotation, gyrate(properties, local));
   if (angular_velocity == none) return true;
+  const Vec3<Real> about_momentum = multiply(angular_momentum, free.common);
+  const Real most = max(greatest(angular_velocity), greatest(about_momentum));
+  if (most * time <= real_from_unit(Unit(1.0), exponent - k_slow_power)) {
+    rotation = turned(rotation, angular_velocity, exponent, time, clamped);
+    return !clamped;
+  }
   const int a = free.odd, c = previous_of_three(a);
   BodyFrame frame = {rotation, {local.x, local.y, local.z}};
   // The rotation about the angular momentum commutes with the other two rotations, so it is applied once, at the end.
@@ -106,7 +113,7 @@ bool rotate_freely(const BodyProperties& properties, const FreeRotation& free, c
     }
     rotate_about(c, free.rest, exponent, half, frame, clamped);
   }
-  rotation = turned(frame.rotation, multiply(angular_momentum, free.common), exponent, time, clamped);
+  rotation = turned(frame.rotation, about_momentum, exponent, time, clamped);
   return !clamped;
 }
 

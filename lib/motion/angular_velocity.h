@@ -68,8 +68,8 @@ inline Vec3<Real> gyrate(const BodyProperties& properties, const Vec3<Real>& v) 
 
 /// The angular velocity, m/s, world: inverse inertia times `angular_momentum`. For a kinematic body, `angular_momentum`
 /// already is the angular velocity.
-inline Vec3<Real> angular_velocity_of(const BodyProperties& properties, const Quat& rotation,
-                                      const Vec3<Real>& angular_momentum) {
+DETENT_SHARED inline Vec3<Real> angular_velocity_of(const BodyProperties& properties, const Quat& rotation,
+                                                    const Vec3<Real>& angular_momentum) {
   if (!is_dynamic(properties)) return angular_momentum;
   if (is_isotropic(properties)) return gyrate(properties, angular_momentum);
   return rotate(rotation, gyrate(properties, rotate_inverse(rotation, angular_momentum)));
@@ -94,8 +94,8 @@ inline Vec3<Real> angular_momentum_of(const BodyProperties& properties, const Qu
 
 /// Returns the angular momentum without its components about locked axes. Contacts can add such components, but they
 /// must have no effect.
-inline Vec3<Real> without_locked(const BodyProperties& properties, const Quat& rotation,
-                                 const Vec3<Real>& angular_momentum) {
+DETENT_SHARED inline Vec3<Real> without_locked(const BodyProperties& properties, const Quat& rotation,
+                                               const Vec3<Real>& angular_momentum) {
   if (properties.rotation_locks == 0 || !is_dynamic(properties)) return angular_momentum;
   const Real zero = 0.0;
   if (properties.rotation_locks == k_rotation_locks_all) return {zero, zero, zero};

@@ -23,7 +23,6 @@ Real start_body(const StepSettings& settings, const BodyProperties& properties, 
                 const BodyMotion& motion, BodyWork& work) {
   const Real zero = 0.0;
   const Vec3<Real> none = {zero, zero, zero};
-  Real angular_velocity = zero;
   work.colours = 0;
   work.joint_body = UINT32_MAX;
   work.rotation = pose.rotation;
@@ -32,14 +31,13 @@ Real start_body(const StepSettings& settings, const BodyProperties& properties, 
   work.axes = matrix_from(pose.rotation);
   work.inverse_inertia = world_inverse_inertia(properties, work.axes);
   work.free_rotation = free_rotation_of(properties);
+  renew_angular_velocity(properties, motion, work);
+  const Real angular_velocity = scale_by_power(absolute_sum(work.angular_velocity), k_angular_velocity_power);
   if (!is_non_colliding(properties)) {  // only contacts read the members set here
     work.extent = shape_extent(properties);
     work.fall = fall_speed(settings, work.extent);
-    if (!(motion.angular_momentum == none))
-      angular_velocity = absolute_sum(angular_velocity_of(properties, pose.rotation, motion.angular_momentum));
     work.speed = absolute_sum(motion.linear_velocity) + angular_velocity;
   }
-  renew_angular_velocity(properties, motion, work);
   return angular_velocity;
 }
 

@@ -9,7 +9,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// Starts the tick of a body: initialises its BodyWork. Returns the sum of the magnitudes of the components of its
-/// angular velocity, in m/s at the radius 2^size_exponent m; 0 for a non-colliding body.
+/// angular velocity, in m/s at the radius 2^size_exponent m.
 Real start_body(const StepSettings& settings, const BodyProperties& properties, const BodyPose& pose,
                 const BodyMotion& motion, BodyWork& work);
 

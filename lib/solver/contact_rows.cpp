@@ -110,14 +110,15 @@ Scaled angular_mass_of(Real response) {
   return response > Real(0.0) ? divide(Scaled(1.0), scaled_from(response)) : Scaled(0.0);
 }
 
-/// The greatest eigenvalue of the 2 x 2 response of the parts i and i + 1 of the motion to each other.
-Real greatest_response(const PairResponse& response, Part i) {
+/// The greatest eigenvalue of the 2 x 2 response of the parts i and i + 1 of the motion to each other. It is computed
+/// from mantissas of the responses / 2^exponent.
+Real greatest_response(const PairResponse& response, int exponent, Part i) {
   const Real* const row = response.part + response_index(i + 1, i);
-  const Real first = response.part[response_index(i, i)], second = row[1];
-  const Scaled apart = scaled_from(scale_by_power(first - second, -1)), both = scaled_from(row[0]);
-  bool saturated = false;
-  return scale_by_power(first + second, -1) +
-         to_real(square_root(add(multiply(apart, apart), multiply(both, both))), saturated);
+  const Unit first = unit_from_real(response.part[response_index(i, i)], exponent);
+  const Unit second = unit_from_real(row[1], exponent), both = unit_from_real(row[0], exponent);
+  const Unit apart = scale_by_power(first - second, -1);
+  const Unit root = both == Unit(0.0) ? abs(apart) : length(Vec3<Unit>{apart, both, Unit(0.0)});
+  return real_from_unit(scale_by_power(first + second, -1) + root, exponent);
 }
 
 /// Computes the matrix K that couples the normal rows of a contact's points, and the effective mass 1 / K_ii of each
@@ -301,10 +302,12 @@ void renew_response(const WorldInverseInertia& a, const WorldInverseInertia& b, 
   for (int i = 0; i < k_responses; ++i)
     work.response[i] = fine(unit_from_real(response.part[i], work.response_exponent));
   couple(response, work);
-  work.friction_mass = fine(mass_of(greatest_response(response, k_along_first)));
+  work.friction_mass = fine(mass_of(greatest_response(response, work.response_exponent, k_along_first)));
   const Scaled none = 0.0;
   work.twist_mass = work.angular_rows != 0 ? fine(angular_mass_of(own(k_about_normal))) : none;
-  work.rolling_mass = work.angular_rows == 3 ? fine(angular_mass_of(greatest_response(response, k_about_first))) : none;
+  work.rolling_mass = work.angular_rows == 3
+                          ? fine(angular_mass_of(greatest_response(response, work.response_exponent, k_about_first)))
+                          : none;
 }
 
 void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b, const ContactGeometry& geometry,
@@ -329,7 +332,8 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
   const Scaled &rolls_a = a.properties.rolling_resistance, &rolls_b = b.properties.rolling_resistance;
   const Scaled rolling = less(rolls_a, rolls_b) ? rolls_b : rolls_a;
   const Real extent = min(a.extent, b.extent);
-  work.rolling_arm = fine(multiply(rolling, scaled_by_power(scaled_from(extent), -1 - unit)));
+  work.rolling_arm = Scaled(0.0);
+  if (is_positive(rolling)) work.rolling_arm = fine(multiply(rolling, scaled_by_power(scaled_from(extent), -1 - unit)));
   work.twist_arm = fine(add(multiply(work.friction, scaled_from(patch)), work.rolling_arm));
   work.angular_rows = is_positive(work.rolling_arm) ? 3 : is_positive(work.twist_arm) ? 1 : 0;
 

@@ -3,7 +3,6 @@
 #include "base/heap.h"
 #include "math/root.h"
 #include "math/scaled.h"
-#include "shape/shape_properties.h"
 #include "solver/island.h"
 #include "solver/warm_start.h"
 
@@ -26,19 +25,16 @@ Scaled square_of(uint32_t n) {
   return multiply(scaled, scaled);
 }
 
-/// The squared number of substeps that the contact needs for its sag and against buckling. In an island with joints
-/// (`jointed`), the sag requires at most k_jointed_sag_substeps.
-Scaled needed(const StepSettings& settings, const ContactWork& contact, const BodyProperties& a,
-              const BodyProperties& b, uint32_t run, bool jointed) {
-  Scaled effective_mass = 0.0;
-  for (uint32_t i = 0; i < contact.state.point_count; ++i)
-    effective_mass = add(effective_mass, scaled_from(contact.normal_mass[i]));
+/// The squared number of substeps that the contact needs for its sag and against buckling. `extent`: of the smaller
+/// body. In an island with joints (`jointed`), the sag requires at most k_jointed_sag_substeps.
+Scaled needed(const StepSettings& settings, const ContactWork& contact, Real extent, uint32_t run, bool jointed) {
+  Real masses = 0.0;
+  for (uint32_t i = 0; i < contact.state.point_count; ++i) masses += real_from_unit(contact.normal_mass[i], 0);
+  if (!(masses > k_zero)) return Scaled(0.0);
   // The springs of a contact with only one dynamic body have twice the frequency.
-  if (contact.static_pair != 0) effective_mass = scaled_by_power(effective_mass, 2);
-  if (!is_positive(effective_mass)) return Scaled(0.0);
-  const Scaled extent = scaled_from(min(shape_extent(a), shape_extent(b)));
+  const Scaled effective_mass = scaled_by_power(scaled_from(masses), contact.static_pair != 0 ? 2 : 0);
   const Scaled load = scaled_from(contact.state.load);
-  const Scaled rate = multiply(divide(load, multiply(effective_mass, extent)), settings.substeps_per_rate);
+  const Scaled rate = multiply(divide(load, multiply(effective_mass, scaled_from(extent))), settings.substeps_per_rate);
   Scaled sag = divide(rate, settings.resting_penetration);
   if (jointed) {
     const Scaled sag_max = square_of(k_jointed_sag_substeps);
@@ -55,7 +51,7 @@ DETENT_SHARED uint32_t notch_for(Scaled need, uint32_t least, uint32_t most) {
   for (const uint32_t notch : k_notches) {
     if (notch < least) continue;
     if (notch >= most) break;
-    if (!less(square_of(notch), need)) return notch;
+    if (!less(scaled_from_count(notch * notch), need)) return notch;
   }
   return most;
 }
@@ -144,7 +140,7 @@ void choose_substeps(const StepSettings& settings, Span<const BodyProperties> pr
       const uint32_t body = is_dynamic(properties[a]) ? a : b;
       if (is_kinematic(properties[a + b - body])) kinematic = true;
       const uint32_t run = work[body].run_length;
-      const Scaled wanted = needed(settings, contact, properties[a], properties[b], run, jointed);
+      const Scaled wanted = needed(settings, contact, min(work[a].extent, work[b].extent), run, jointed);
       Scaled& most = need[contact.state.point_count < k_edge_points ? 1 : 0];
       if (less(most, wanted)) most = wanted;
     }

@@ -186,7 +186,7 @@ struct Collider {
     count.capped += geometry.capped ? 1 : 0;
     count.recycled += recycled ? 1 : 0;
     if (geometry.count != 0)
-      add(key, 0, geometry, manifold, before.contact);
+      add(key, geometry, manifold, continued_contact(slot_a, slot_b, 0, geometry, before.contact));
     else if (geometry.seam || geometry.near)
       mark_near(slot_a, slot_b);
   }
@@ -305,12 +305,18 @@ struct Collider {
     if (found.dropped != 0) {
       alone(settings.team, [&] { overflow.add(CapacityEventType::contact, slot_a, slot_b); });
     }
+    uint32_t heir[k_terrain_manifolds_max];
+    for (uint32_t k = 0; k < pair.count; ++k) heir[k] = heir_of(pair[k], found);
     const uint32_t dropped_before = count.dropped;
     for (uint32_t i = 0; i < found.count; ++i) {
       const TerrainContact& contact = found.contact[i];
       const ContactState* before = nullptr;
       for (uint32_t k = 0; k < pair.count; ++k) before = pair[k].part == contact.key ? &pair[k] : before;
-      add(key, contact.key, contact.geometry, manifold[i], before);
+      ContactState state = continued_contact(slot_a, slot_b, contact.key, contact.geometry, before);
+      for (uint32_t k = 0; k < pair.count; ++k) {
+        if (heir[k] == i) take_impulses(pair[k], state);
+      }
+      add(key, contact.geometry, manifold[i], state);
     }
     if (count.dropped != dropped_before) forget_manifolds(key);
   }
@@ -363,8 +369,7 @@ struct Collider {
     return has_room;
   }
 
-  void add(uint64_t key, uint32_t part, const ContactGeometry& geometry, const ManifoldState& manifold,
-           const ContactState* before) {
+  void add(uint64_t key, const ContactGeometry& geometry, const ManifoldState& manifold, const ContactState& state) {
     const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
     const uint32_t number = count.contacts + count.dropped;
     const bool is_full = count.contacts == room.count;
@@ -372,7 +377,7 @@ struct Collider {
     const uint32_t place = is_full ? room.by_depth()[0].contact : count.contacts++;
     if (recycles()) room.manifolds()[place] = manifold;
     ContactWork& work = room.contacts()[place];
-    work.state = continued_contact(slot_a, slot_b, part, geometry, before);
+    work.state = state;
     // Half a tick, because make_rows() computes the arms for the middle of the tick. If the bodies only now collide,
     // their velocities change at once. The arms are then those at the start of the tick.
     const Real ahead = is_pushed(work) ? scale_by_power(settings.tick_time, -1) : k_zero;

@@ -222,6 +222,7 @@ struct alignas(8) JointBodyStart {
   int32_t above;                       ///< `exponent` minus the body's size_exponent
   uint32_t renewed;                    ///< 1 if its inverse inertia has changed since the last substep
   uint32_t slowed;                     ///< 1 if its joints increase its inertia: an element of kept_rotation is below 1
+  int32_t power;                       ///< greatest exponent of the units of its joints' impulses; at least 0
   alignas(sizeof(Real)) Scaled inverse_mass;  ///< reference mass of its assembly / its mass; 0 if no joint moves it
 };
 /// The part of a body with joints that each substep recomputes. The body's *unit for joints* is a power of two, m, that
@@ -240,7 +241,7 @@ struct alignas(8) JointBody : JointBodyStart {
   Vec3<Real> turned[3];  ///< angular velocity per unit angular impulse: rows of a symmetric matrix
   // Code with registers of four floats reads and writes one float beyond `push` and beyond `twist`: `pushed` and
   // kept_rotation[0] must follow them.
-  Vec3<Real> push;  ///< velocity that the rows' impulses add, m/s
+  Vec3<Real> push;  ///< velocity that the rows' impulses add, m/s; see gather() for its unit while they are summed
   Real pushed;      ///< velocity per unit impulse
   Vec3<Real> twist;  ///< angular momentum that the rows' impulses add, in the body's unit for joints, m/s
   /// About each body axis: the ratio, in (0, 1], of the body's own inertia to its inertia in this substep, which joints

@@ -59,6 +59,36 @@ DETENT_TEST(contact_cache, two_contacts_do_not_go_on_with_one) {
   EXPECT_EQ(found.contact[1].key, 12u);
 }
 
+DETENT_TEST(contact_cache, what_a_contact_bore_that_ends_is_borne_by_another_at_the_same_points) {
+  Last last;
+  last.add(10, 1, 2);
+  last.add(20, 2, 3);
+  last.add(30, 4, 5);
+  for (uint32_t i = 0; i < 3; ++i) {
+    last.contact[i].normal_impulse[0] = real_near(1 + i);
+    last.contact[i].normal_impulse[1] = real_near(0.25);
+    last.contact[i].friction_impulse = reals_near({{0.5, 0, static_cast<double>(i)}});
+    last.contact[i].load = real_near(8 * (1 + i));
+  }
+  TerrainContacts found;
+  add(found, 10, 1, 2);
+  add(found, 30, 3, 2);
+  EXPECT_EQ(heir_of(last.contact[0], found), UINT32_MAX) << "it goes on";
+  EXPECT_EQ(heir_of(last.contact[1], found), 0u);
+  EXPECT_EQ(heir_of(last.contact[2], found), UINT32_MAX) << "it goes on, with other points";
+  found.contact[1].key = 40;
+  EXPECT_EQ(heir_of(last.contact[2], found), UINT32_MAX) << "no contact has its points";
+  ContactState heir = continued_contact(1, 2, 10, found.contact[0].geometry, &last.contact[0]);
+  take_impulses(last.contact[1], heir);
+  EXPECT_EQ(real_to_host(heir.normal_impulse[0]), 1);
+  EXPECT_EQ(real_to_host(heir.normal_impulse[1]), 0.25 + 2);
+  EXPECT_TRUE(heir.friction_impulse == reals_near({{0.5, 0, 0}}));
+  EXPECT_EQ(real_to_host(heir.load), 8);
+  heir.normal_impulse[1] = k_real_max;
+  take_impulses(last.contact[1], heir);
+  EXPECT_TRUE(heir.normal_impulse[1] == k_real_max) << "no overflow";
+}
+
 }  // namespace
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -281,6 +281,59 @@ DETENT_TEST(speeds, of_impacts_that_leave_their_range_are_clamped_and_counted) {
   EXPECT_EQ(add_to_sweep(rod, k_unturned, none, after, tick, sweep), 2u);
 }
 
+/// The rotation after `time`, s, of a free body with this angular momentum L, by Euler's equations: four steps of
+/// fourth order, which is enough for a small rotation. `rate[i]`: angular velocity, rad/s, about body axis i for L = 1
+/// about it.
+Quaternion rotated_freely(const double (&rate)[3], Quaternion rotation, const Vector& angular_momentum, double time) {
+  constexpr int k_steps = 4;
+  const auto derivative = [&](const Quaternion& q) {
+    Quaternion w = {0, 0, 0, 0};
+    double* const parts[] = {&w.x, &w.y, &w.z};
+    for (int i = 0; i < 3; ++i) *parts[i] = rate[i] * dot(angular_momentum, detent_oracle::axis_of(q, i)) / 2;
+    return q * w;
+  };
+  const auto moved = [](const Quaternion& q, const Quaternion& d, double h) {
+    return Quaternion{q.x + h * d.x, q.y + h * d.y, q.z + h * d.z, q.w + h * d.w};
+  };
+  const double h = time / k_steps;
+  for (int i = 0; i < k_steps; ++i) {
+    const Quaternion a = derivative(rotation), b = derivative(moved(rotation, a, h / 2));
+    const Quaternion c = derivative(moved(rotation, b, h / 2)), d = derivative(moved(rotation, c, h));
+    rotation = moved(moved(moved(moved(rotation, a, h / 6), b, h / 3), c, h / 3), d, h / 6);
+  }
+  return normalised(rotation);
+}
+
+/// Angular momenta about the one below which rotate_freely() rotates the body once, not four times.
+DETENT_TEST(angular_velocity, a_slow_body_rotates_as_in_many_small_steps) {
+  const int slow_power = DETENT_FIXED ? 17 : sizeof(Real) == 4 ? 14 : 29;
+  const Real tick = real(1.0 / 64);
+  for (const Vector& half : {Vector{{0.5, 0.2, 0.05}}, Vector{{0.7, 0.6, 0.5}}, Vector{{0.5, 0.05, 0.05}}}) {
+    const BodyProperties properties = body_properties(box(reals_near(half)));
+    const double metres = ldexp(1, properties.size_exponent);
+    double rate[3], greatest_rate = 0;
+    for (int i = 0; i < 3; ++i) {
+      rate[i] = scaled_to_host(properties.inverse_inertia[i]) / metres;
+      greatest_rate = fmax(greatest_rate, rate[i]);
+    }
+    const Quat start = normalise_any(Quat{unit(0.3), unit(-0.4), unit(0.5), unit(0.7)});
+    for (double power = -4; power < 3; power += 0.25) {
+      const double size = exp2(power - slow_power) * 64 / greatest_rate;
+      const Vec3<Real> momentum = reals_near({{0.7 * size, -size, 0.9 * size}});
+      Quat rotation = start;
+      Vec3<Real> angular_velocity;
+      ASSERT_TRUE(
+          rotate_freely(properties, free_rotation_of(properties), momentum, tick, 0, rotation, angular_velocity));
+      const Quaternion exact =
+          rotated_freely(rate, host(start),
+                         {{real_to_host(momentum.x), real_to_host(momentum.y), real_to_host(momentum.z)}}, 1.0 / 64);
+      const Quaternion found = host(rotation);
+      const double errors[] = {found.x - exact.x, found.y - exact.y, found.z - exact.z, found.w - exact.w};
+      for (const double error : errors) ASSERT_LE(fabs(error), ldexp(8, k_unit_step)) << half.v[1] << ' ' << power;
+    }
+  }
+}
+
 DETENT_TEST(angular_velocity, of_a_ball_never_changes) {
   WorldDef world;
   world.gravity = {0.0, 0.0, 0.0};

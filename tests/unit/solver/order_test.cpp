@@ -352,7 +352,10 @@ struct Pile {
     work.assign(properties.size(), BodyWork{});
     activities.assign(properties.size(), BodyActivity{});
     for (uint32_t i = 0; i < properties.size(); ++i) slots.push_back(i);
-    for (BodyWork& body : work) body.run_length = run;
+    for (BodyWork& body : work) {
+      body.run_length = run;
+      body.extent = shape_extent(properties[0]);
+    }
     for (uint32_t i = 0; i < contact_count; ++i) {
       ContactWork contact{};
       contact.state.body_a = i;
