@@ -7,7 +7,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 /// Adds an impulse, without overflow.
-void add(Real more, Real& sum) { sum += min(more, k_real_max - sum); }
+void add_impulse(Real more, Real& sum) { sum += min(more, k_real_max - sum); }
 
 }  // namespace
 
@@ -79,7 +79,7 @@ uint32_t heir_of(const ContactState& before, const TerrainContacts& found) {
 void take_impulses(const ContactState& before, ContactState& contact) {
   for (uint32_t i = 0; i < contact.point_count; ++i) {
     for (uint32_t j = 0; j < before.point_count; ++j) {
-      if (before.feature[j] == contact.feature[i]) add(before.normal_impulse[j], contact.normal_impulse[i]);
+      if (before.feature[j] == contact.feature[i]) add_impulse(before.normal_impulse[j], contact.normal_impulse[i]);
     }
   }
 }
