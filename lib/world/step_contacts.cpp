@@ -305,8 +305,6 @@ struct Collider {
     if (found.dropped != 0) {
       alone(settings.team, [&] { overflow.add(CapacityEventType::contact, slot_a, slot_b); });
     }
-    uint32_t heir[k_terrain_manifolds_max];
-    for (uint32_t k = 0; k < pair.count; ++k) heir[k] = heir_of(pair[k], found);
     const uint32_t dropped_before = count.dropped;
     for (uint32_t i = 0; i < found.count; ++i) {
       const TerrainContact& contact = found.contact[i];
@@ -314,7 +312,7 @@ struct Collider {
       for (uint32_t k = 0; k < pair.count; ++k) before = pair[k].part == contact.key ? &pair[k] : before;
       ContactState state = continued_contact(slot_a, slot_b, contact.key, contact.geometry, before);
       for (uint32_t k = 0; k < pair.count; ++k) {
-        if (heir[k] == i) take_impulses(pair[k], state);
+        if (heir_of(pair[k], found) == i) take_impulses(pair[k], state);
       }
       add(key, contact.geometry, manifold[i], state);
     }
